@@ -1,0 +1,39 @@
+"""Kernels: functions compiled by numba, kept on disk in a folder that belongs to exactly these sources.
+
+numba checks only the file of the function it loads, not those of the functions it calls, so its own
+cache goes stale when a callee in another file changes. A folder named after all sources cannot.
+"""
+
+import hashlib
+import os
+from pathlib import Path
+
+from numba import config, njit
+
+
+def sources_digest() -> str:
+    """A name for the state of the package's sources, from the sizes and times of its files."""
+    root = Path(__file__).parent
+    digest = hashlib.sha256()
+    for path in sorted(root.rglob("*.py")):
+        stat = path.stat()
+        digest.update(f"{path.relative_to(root)} {stat.st_size} {stat.st_mtime_ns}\n".encode())
+    return digest.hexdigest()[:16]
+
+
+def cache_folder() -> Path:
+    """Where the compiled kernels of these sources are kept."""
+    base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
+    return Path(base) / "gaitwright" / "kernels" / sources_digest()
+
+
+def is_warm() -> bool:
+    """Whether the kernels of these sources were compiled before: asked of the one that takes longest."""
+    return any(Path(config.CACHE_DIR).rglob("coordinator.coordinate-*.nbc"))
+
+
+if not config.CACHE_DIR:
+    config.CACHE_DIR = str(cache_folder())
+
+kernel = njit(cache=True, error_model="numpy")
+"""Marks a function as a kernel: plain arithmetic on arrays and tuples, compiled at its first call."""

@@ -1,0 +1,1 @@
+"""What stages know of the world: robots, terrains, kinematics and dynamics."""

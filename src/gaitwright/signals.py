@@ -1,0 +1,147 @@
+"""The values on the arrows of the data flow, one frozen value per arrow.
+
+    Mission ─► navigation ─► Route ─► skills ─► SkillCall ─► gait ─► MotionTarget ─► control ─► Torques ─► plant ─► Sensed
+
+SI units and radians. `_w`: world axes; `_b`: base axes; quaternions `(w, x, y, z)`. Arrays per leg are
+`(legs, 3)` in the robot's leg order. Arrays are copies, never views into a simulator.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+
+@dataclass(frozen=True, slots=True)
+class Sensed:
+    """What happened: the state of the robot as every controller reads it (row R3)."""
+
+    time: float
+    """Time since the start [s]."""
+    position_w: Float[np.ndarray, "3"]
+    """Origin of the base [m]."""
+    orientation_wb: Float[np.ndarray, "4"]
+    """Orientation of the base."""
+    velocity_w: Float[np.ndarray, "3"]
+    """Velocity of the base origin [m/s]."""
+    angular_velocity_b: Float[np.ndarray, "3"]
+    """Angular velocity of the base, its own axes [rad/s]."""
+    q: Float[np.ndarray, "legs 3"]
+    """Joint angles [rad]."""
+    qd: Float[np.ndarray, "legs 3"]
+    """Joint rates [rad/s]."""
+    load: Float[np.ndarray, "legs"]
+    """Normal force measured at each foot [N]."""
+
+    def is_finite(self) -> bool:
+        """Whether every number of the state is a number."""
+        total = (
+            self.position_w.sum()
+            + self.orientation_wb.sum()
+            + self.velocity_w.sum()
+            + self.angular_velocity_b.sum()
+            + self.q.sum()
+            + self.qd.sum()
+        )
+        return bool(np.isfinite(total))
+
+
+@dataclass(frozen=True, slots=True)
+class Mission:
+    """Where to go: way-points in order, the last one is the goal."""
+
+    waypoints: tuple[tuple[float, float], ...]
+    """World x, y [m]."""
+    speed: float | None = None
+    """Wished speed [m/s]; `None` leaves it to the skill."""
+    driver: str = "numerical"
+    """Who computes the torques."""
+
+
+@dataclass(frozen=True, slots=True)
+class Route:
+    """Which way: what is left of the path, and how far."""
+
+    path: tuple[tuple[float, float], ...]
+    """Points still to pass, world [m]; empty when there is nowhere to go."""
+    remaining: float
+    """Length of what is left, from where the robot is [m]."""
+    speed: float | None
+    """Wished speed [m/s]."""
+    driver: str
+    arrived: bool = False
+    """Whether the robot has come to its goal."""
+    no_way: str | None = None
+    """Why there is no path to the goal, as a sentence."""
+
+
+@dataclass(frozen=True, slots=True)
+class Gait:
+    """A cyclic gait (row J1). Leg phase = (φ + offset) mod 1; stance while it is below `duty`."""
+
+    name: str
+    period: float
+    """τ [s]."""
+    duty: float
+    """β, the share of the cycle that a foot is down; 1 is standing."""
+    offsets: tuple[float, ...]
+    """Relative phases, one per leg."""
+
+
+@dataclass(frozen=True, slots=True)
+class SkillCall:
+    """Which skill: a gait, a velocity to hold with it, and why."""
+
+    skill: str
+    gait: Gait
+    velocity: tuple[float, float]
+    """Commanded velocity, forward and left, in the robot's heading frame [m/s]."""
+    turn: float
+    """Commanded yaw rate [rad/s]."""
+    driver: str
+    because: str
+    """Why this skill, as a sentence."""
+
+
+@dataclass(frozen=True, slots=True)
+class MotionTarget:
+    """Which angles: what the body, the feet and the joints should do now."""
+
+    phase: float
+    """Phase φ of the gait, in [0, 1)."""
+    stance: Bool[np.ndarray, "legs"]
+    """Legs that carry load now."""
+    share: Float[np.ndarray, "legs"]
+    """How much of the normal-force bound each leg may use, 0 … 1: it ramps at both ends of stance."""
+    normal_w: Float[np.ndarray, "3"]
+    """Unit normal of the ground under the feet."""
+    position_w: Float[np.ndarray, "3"]
+    velocity_w: Float[np.ndarray, "3"]
+    acceleration_w: Float[np.ndarray, "3"]
+    """Reference of the base origin."""
+    rotation_wb: Float[np.ndarray, "3 3"]
+    angular_velocity_w: Float[np.ndarray, "3"]
+    angular_acceleration_w: Float[np.ndarray, "3"]
+    """Reference of the base's orientation."""
+    feet_w: Float[np.ndarray, "legs 3"]
+    feet_velocity_w: Float[np.ndarray, "legs 3"]
+    feet_acceleration_w: Float[np.ndarray, "legs 3"]
+    """References of the foot centres; of use for legs in swing."""
+    q: Float[np.ndarray, "legs 3"]
+    """Joint angles that realise them [rad]."""
+    command: Float[np.ndarray, "3"]
+    """Velocity asked for now, after slewing: forward, left [m/s], yaw rate [rad/s]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Torques:
+    """How hard: joint torques, and the foot forces they rest on."""
+
+    tau: Float[np.ndarray, "legs 3"]
+    """Joint torques [N·m], within the robot's limits."""
+    forces_w: Float[np.ndarray, "legs 3"]
+    """Intended ground forces on the feet [N]; zero in swing."""
+    residual: float
+    """Part of the wanted wrench that the feet cannot give, as a share of the weight."""
+    status: str = "solved"
+    """`solved`, or why not, as a sentence."""
