@@ -1,0 +1,1 @@
+"""Torques → Sensed (MuJoCo, Armstrong, replay)."""
