@@ -1,0 +1,62 @@
+"""The built-in scenes by name: what `gaitwright scenes` prints. Imports neither numpy nor MuJoCo."""
+
+from typing import NamedTuple
+
+from gaitwright.errors import WrongUse, unknown
+
+
+class Offer(NamedTuple):
+    """A built-in scene, and the number that may follow its name after a colon."""
+
+    line: str
+    """What it is, in one line."""
+    takes: str = ""
+    """What the number means and its unit; empty where there is none."""
+    default: float = 0.0
+    low: float = 0.0
+    high: float = 0.0
+
+
+OFFERS = {
+    "flat": Offer("level ground"),
+    "slope": Offer("a plane that rises (+) or falls (-) ahead", "an angle in degrees", 10.0, -45.0, 45.0),
+    "cross-slope": Offer(
+        "a plane that rises to the left (+) or right (-)", "an angle in degrees", 10.0, -45.0, 45.0
+    ),
+    "rough": Offer("random hills 0.2 m apart, level at the start", "an amplitude in metres", 0.03, 0.0, 0.5),
+    "blocks": Offer("low blocks to step on, high ones to walk around, between (0, 0) and the goal (6, 0)"),
+    "stairs": Offer("five steps up and five down", "the height of a step in metres", 0.10, 0.01, 0.5),
+}
+
+
+def scene_names() -> dict[str, str]:
+    """Names of the built-in scenes with what they are."""
+    return {name: _line(offer) for name, offer in OFFERS.items()}
+
+
+def _line(offer: Offer) -> str:
+    return f"{offer.line}; takes {offer.takes} (default {offer.default:g})" if offer.takes else offer.line
+
+
+def parse(asked: str) -> tuple[str, float]:
+    """Name and number of a built-in scene, from `name` or `name:number`.
+
+    Raises `WrongUse` for a name that does not exist and for a number out of its range.
+    """
+    name, colon, text = asked.partition(":")
+    if name not in OFFERS:
+        raise unknown("scene", asked, [*OFFERS, "or the path of a .json file"])
+    offer = OFFERS[name]
+    if not colon:
+        return name, offer.default
+    if not offer.takes:
+        raise WrongUse(f"scene {name!r} takes no number, but {asked!r} gives one")
+    try:
+        value = float(text)
+    except ValueError:
+        value = float("nan")
+    if not offer.low <= value <= offer.high:
+        raise WrongUse(
+            f"scene {name!r} takes {offer.takes} from {offer.low:g} to {offer.high:g}, not {text!r}"
+        )
+    return name, value

@@ -1,0 +1,161 @@
+"""What robots walk on: a surface that tells its height and its normal, and boxes that stand on it.
+
+World frame, metres and radians. Every method takes numbers or arrays `x`, `y` that broadcast together.
+"""
+
+import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+from jaxtyping import Bool, Float, Num
+
+Number = Num[np.ndarray, "..."] | float | int
+"""A number or an array of numbers."""
+
+
+class Surface(ABC):
+    """Ground without overhangs: one height for every place."""
+
+    @abstractmethod
+    def height(self, x: Number, y: Number) -> Number:
+        """Height of the ground [m]."""
+
+    @abstractmethod
+    def normal(self, x: Number, y: Number) -> Float[np.ndarray, "... 3"]:
+        """Unit normal of the ground, pointing up, world axes."""
+
+
+@final
+@dataclass(frozen=True)
+class Slope(Surface):
+    """A plane through the origin: z = x tan(pitch) + y tan(cross)."""
+
+    pitch: float
+    """Angle at which the ground rises towards +x [rad]."""
+    cross: float = 0.0
+    """Angle at which the ground rises towards +y [rad]."""
+
+    def height(self, x: Number, y: Number) -> Number:
+        return math.tan(self.pitch) * np.asarray(x) + math.tan(self.cross) * np.asarray(y)
+
+    def normal(self, x: Number, y: Number) -> Float[np.ndarray, "... 3"]:
+        shape = np.broadcast(x, y).shape
+        return np.broadcast_to(_upward(math.tan(self.pitch), math.tan(self.cross)), (*shape, 3))
+
+
+@final
+@dataclass(frozen=True)
+class Flat(Surface):
+    """Level ground at height zero."""
+
+    def height(self, x: Number, y: Number) -> Number:
+        return np.zeros(np.broadcast(x, y).shape)
+
+    def normal(self, x: Number, y: Number) -> Float[np.ndarray, "... 3"]:
+        return np.broadcast_to([0.0, 0.0, 1.0], (*np.broadcast(x, y).shape, 3))
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class HeightField(Surface):
+    """Heights on a regular grid, straight in between.
+
+    Every cell is two triangles that share the diagonal from its corner (−x, −y) to its corner (+x, +y):
+    the very triangles that MuJoCo collides with. Beyond its edge the ground keeps the height of the edge.
+    """
+
+    x_min: float
+    y_min: float
+    spacing: float
+    """Distance between neighbouring nodes, along x and y [m]."""
+    heights: Float[np.ndarray, "rows columns"]
+    """Heights [m]: rows along y, columns along x, at least two of each."""
+
+    @property
+    def x_max(self) -> float:
+        return self.x_min + self.spacing * (self.heights.shape[1] - 1)
+
+    @property
+    def y_max(self) -> float:
+        return self.y_min + self.spacing * (self.heights.shape[0] - 1)
+
+    def height(self, x: Number, y: Number) -> Number:
+        u, v, low, gain_x, gain_y = self._triangle(x, y)
+        return low + gain_x * u + gain_y * v
+
+    def normal(self, x: Number, y: Number) -> Float[np.ndarray, "... 3"]:
+        _, _, _, gain_x, gain_y = self._triangle(x, y)
+        return _upward(gain_x / self.spacing, gain_y / self.spacing)
+
+    def _triangle(self, x: Number, y: Number) -> tuple[Number, ...]:
+        """Place (u, v) in its cell, 0 … 1, height of the cell's plane at (0, 0), its gains over u and v."""
+        rows, columns = self.heights.shape
+        u = np.clip((np.asarray(x, dtype=float) - self.x_min) / self.spacing, 0.0, columns - 1.0)
+        v = np.clip((np.asarray(y, dtype=float) - self.y_min) / self.spacing, 0.0, rows - 1.0)
+        u, v = np.broadcast_arrays(u, v)
+        column = np.minimum(u.astype(int), columns - 2)
+        row = np.minimum(v.astype(int), rows - 2)
+        u, v = u - column, v - row
+        first, last = self.heights[row, column], self.heights[row + 1, column + 1]
+        at_x, at_y = self.heights[row, column + 1], self.heights[row + 1, column]
+        right = u >= v  # the triangle with the corner (+x, -y)
+        return (
+            u,
+            v,
+            first,
+            np.where(right, at_x - first, last - at_y),
+            np.where(right, last - at_x, at_y - first),
+        )
+
+
+def sampled(surface: Surface, bounds: tuple[float, float, float, float], spacing: float) -> HeightField:
+    """Any surface as a height field over `bounds` (x_min, y_min, x_max, y_max) [m]."""
+    x_min, y_min, x_max, y_max = bounds
+    x = x_min + spacing * np.arange(math.ceil((x_max - x_min) / spacing - 1e-9) + 1)
+    y = y_min + spacing * np.arange(math.ceil((y_max - y_min) / spacing - 1e-9) + 1)
+    return HeightField(x_min, y_min, spacing, np.asarray(surface.height(x[None, :], y[:, None])))
+
+
+@final
+@dataclass(frozen=True)
+class Box:
+    """A block with vertical sides and a level top. Low ones are stepped on, high ones walked around."""
+
+    x: float
+    y: float
+    """Centre, world [m]."""
+    yaw: float
+    """Direction of the side `lx` [rad]."""
+    lx: float
+    ly: float
+    """Lengths of the sides [m]."""
+    height: float
+    """From what it stands on to its top [m]."""
+    base: float = 0.0
+    """What it stands on, above the surface under its centre [m]; not zero when it lies on a box."""
+
+    def covers(self, x: Number, y: Number) -> Bool[np.ndarray, "..."] | np.bool:
+        """Whether places lie within its outline."""
+        c, s = math.cos(self.yaw), math.sin(self.yaw)
+        dx, dy = np.asarray(x) - self.x, np.asarray(y) - self.y
+        return (np.abs(c * dx + s * dy) <= self.lx / 2) & (np.abs(c * dy - s * dx) <= self.ly / 2)
+
+    def corners(self) -> Float[np.ndarray, "4 2"]:
+        """Corners of its outline, anticlockwise, world [m]."""
+        c, s = math.cos(self.yaw), math.sin(self.yaw)
+        half = np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]]) * (self.lx / 2, self.ly / 2)
+        return half @ np.array([[c, s], [-s, c]]) + (self.x, self.y)
+
+    @property
+    def radius(self) -> float:
+        """Radius of the circle around its outline [m]."""
+        return math.hypot(self.lx, self.ly) / 2
+
+
+def _upward(slope_x: Number, slope_y: Number) -> Float[np.ndarray, "... 3"]:
+    """Unit normal of ground that rises by `slope_x`, `slope_y` metres per metre along x and y."""
+    slope_x, slope_y = np.broadcast_arrays(slope_x, slope_y)
+    normal = np.stack([-slope_x, -slope_y, np.ones_like(slope_x, dtype=float)], axis=-1)
+    return normal / np.linalg.norm(normal, axis=-1, keepdims=True)
