@@ -1,0 +1,1 @@
+"""MotionTarget + Sensed → Torques (numerical, learned, kinematic and programmed control)."""

@@ -1,0 +1,206 @@
+"""How the stance feet share a load: quadratic program by default, the thesis's linear one by choice (row N3).
+
+Unknowns are the foot forces in the contact frame (two tangents, normal), in units of the weight. Both
+programs have the same limits: friction pyramid, normal force between 0 and a bound that ramps at both
+ends of stance, torque limits of both signs (equations.md §5, control.md "Force distribution").
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from jaxtyping import Bool, Float
+from gaitwright.compiled import kernel
+
+from gaitwright.control.solvers import solve_qp
+from gaitwright.geometry import GRAVITY, cross, dot, scale, sub, vec
+
+FRICTION = 0.5
+"""Half-width of the friction pyramid, as a share of the normal force."""
+MOST_NORMAL = 1.5
+"""Largest normal force of one foot, in weights."""
+FORCE_WEIGHTS = (1.0, 1.0, 1.5)
+"""Weights of the force rows, once divided by the weight."""
+MOMENT_WEIGHTS = (1.0, 1.0, 0.6)
+"""Weights of the moment rows, once divided by weight times height."""
+SMALL = 1e-4
+"""Price of a force in itself (‖f‖²), which spreads the load."""
+SMOOTH = 1e-3
+"""Price of a change of force from tick to tick (‖f − f_prev‖²)."""
+
+Method = Literal["qp", "lp"]
+
+
+@dataclass(frozen=True, slots=True)
+class Load:
+    """What the feet are asked to do, as `control.demand` hands it over."""
+
+    wrench: Float[np.ndarray, "6"]
+    """Force and moment about the base origin, world axes [N, N·m]."""
+    free: Float[np.ndarray, "legs 3"]
+    """Joint torques with unloaded feet [N·m]."""
+    arm: Float[np.ndarray, "legs 3"]
+    """Base origin → contact point, world axes [m]."""
+    push: Float[np.ndarray, "legs 3 3"]
+    """τ = free − push @ f."""
+
+
+@dataclass(frozen=True, slots=True)
+class Distribution:
+    """Foot forces with their proof."""
+
+    forces_w: Float[np.ndarray, "legs 3"]
+    """Ground → foot, world axes [N]."""
+    residual: float
+    """Length of the wanted wrench that is not met, rows scaled as in the program (share of the weight)."""
+    status: str
+    """`solved`, or why not."""
+
+
+@kernel
+def contact_frame(normal):
+    """Rows: two tangents and the normal of the ground, world axes `(3, 3)`."""
+    n = vec(normal)
+    t = sub((1.0, 0.0, 0.0), scale(n[0], n))
+    t = scale(1.0 / np.sqrt(dot(t, t)), t)
+    b = cross(n, t)
+    out = np.empty((3, 3))
+    for i in range(3):
+        out[0, i], out[1, i], out[2, i] = t[i], b[i], n[i]
+    return out
+
+
+@kernel
+def balance_rows(wrench, arm, stance, frame, weight, height):
+    """Scaled balance: `rows @ x` should be `wanted`, `(6, 3m)` and `(6,)`, for `m` stance feet."""
+    m = stance.sum()
+    rows, wanted = np.empty((6, 3 * m)), np.empty(6)
+    for i in range(3):
+        wanted[i] = FORCE_WEIGHTS[i] * wrench[i] / weight
+        wanted[3 + i] = MOMENT_WEIGHTS[i] * wrench[3 + i] / (weight * height)
+    k = 0
+    for leg in range(stance.size):
+        if stance[leg]:
+            for j in range(3):
+                direction = vec(frame[j])
+                moment = cross(vec(arm[leg]), direction)
+                for i in range(3):
+                    rows[i, 3 * k + j] = FORCE_WEIGHTS[i] * direction[i]
+                    rows[3 + i, 3 * k + j] = MOMENT_WEIGHTS[i] * moment[i] / height
+            k += 1
+    return rows, wanted
+
+
+@kernel
+def limit_rows(free, push, stance, share, frame, tau_max, weight):
+    """Bounds on x and on `rows @ x`: `(7m, 3m)` rows, and lower, upper `(10m,)` with x's own first."""
+    m = stance.sum()
+    rows = np.zeros((7 * m, 3 * m))
+    lower, upper = np.empty(10 * m), np.empty(10 * m)
+    k = 0
+    for leg in range(stance.size):
+        if not stance[leg]:
+            continue
+        x = 3 * k
+        most = MOST_NORMAL * share[leg]
+        for j in range(2):
+            lower[x + j], upper[x + j] = -most, most
+        lower[x + 2], upper[x + 2] = 0.0, most
+        # Friction: −∞ ≤ ±t − μ n ≤ 0, with a bound that no force reaches for −∞.
+        for i in range(4):
+            r = 4 * k + i
+            rows[r, x + i // 2] = 1.0 if i % 2 == 0 else -1.0
+            rows[r, x + 2] = -FRICTION
+            lower[3 * m + r], upper[3 * m + r] = -10.0, 0.0
+        for j in range(3):
+            r = 4 * m + 3 * k + j
+            limit = tau_max[leg, j]
+            for i in range(3):
+                rows[r, x + i] = -dot(vec(push[leg, j]), vec(frame[i])) * weight / limit
+            room = free[leg, j] / limit
+            lower[3 * m + r], upper[3 * m + r] = -1.0 - room, 1.0 - room
+        k += 1
+    return rows, lower, upper
+
+
+@kernel
+def to_contact(forces_w, stance, frame, weight):
+    """World forces `(legs, 3)` as unknowns x `(3m,)`."""
+    x = np.empty(3 * stance.sum())
+    k = 0
+    for leg in range(stance.size):
+        if stance[leg]:
+            for j in range(3):
+                x[3 * k + j] = dot(vec(frame[j]), vec(forces_w[leg])) / weight
+            k += 1
+    return x
+
+
+@kernel
+def to_world(x, stance, frame, weight):
+    """Unknowns x as world forces `(legs, 3)`, zero in swing."""
+    forces = np.zeros((stance.size, 3))
+    k = 0
+    for leg in range(stance.size):
+        if stance[leg]:
+            for i in range(3):
+                forces[leg, i] = weight * (
+                    x[3 * k] * frame[0, i] + x[3 * k + 1] * frame[1, i] + x[3 * k + 2] * frame[2, i]
+                )
+            k += 1
+    return forces
+
+
+@kernel
+def residual(rows, x, wanted):
+    total = 0.0
+    for i in range(6):
+        e = -wanted[i]
+        for j in range(x.size):
+            e += rows[i, j] * x[j]
+        total += e * e
+    return np.sqrt(total)
+
+
+@kernel
+def quadratic_program(wrench, free, arm, push, stance, share, normal, previous, tau_max, weight, height):
+    """The quadratic program min ‖balance‖² + small ‖x‖² + smooth ‖x − x_prev‖² under the limits."""
+    frame = contact_frame(normal)
+    rows, wanted = balance_rows(wrench, arm, stance, frame, weight, height)
+    x_prev = to_contact(previous, stance, frame, weight)
+    n = x_prev.size
+    hessian, gradient = np.empty((n, n)), np.empty(n)
+    for i in range(n):
+        for j in range(i + 1):
+            total = 0.0
+            for r in range(6):
+                total += rows[r, i] * rows[r, j]
+            hessian[i, j] = hessian[j, i] = total
+        hessian[i, i] += SMALL + SMOOTH
+        total = SMOOTH * x_prev[i]
+        for r in range(6):
+            total += rows[r, i] * wanted[r]
+        gradient[i] = -total
+    limits, lower, upper = limit_rows(free, push, stance, share, frame, tau_max, weight)
+    return hessian, gradient, limits, lower, upper, frame, rows, wanted
+
+
+def distribute(
+    load: Load,
+    stance: Bool[np.ndarray, "legs"],
+    share: Float[np.ndarray, "legs"],
+    normal_w: Float[np.ndarray, "3"],
+    previous_w: Float[np.ndarray, "legs 3"],
+    tau_max: Float[np.ndarray, "legs 3"],
+    mass: float,
+    height: float,
+) -> Distribution:
+    """Foot forces [N] that come nearest to the wanted wrench, by the quadratic program."""
+    if not stance.any():
+        return Distribution(np.zeros_like(previous_w), 0.0, "solved")
+    weight = mass * GRAVITY
+    hessian, gradient, limits, lower, upper, frame, rows, wanted = quadratic_program(
+        load.wrench, load.free, load.arm, load.push, stance, share, normal_w, previous_w, tau_max, weight, height
+    )
+    x, status = solve_qp(hessian, gradient, limits, lower, upper)
+    return Distribution(to_world(x, stance, frame, weight), residual(rows, x, wanted), status)

@@ -1,0 +1,1 @@
+"""SkillCall + Sensed → MotionTarget (joint coordination control)."""

@@ -1,0 +1,225 @@
+"""SkillCall + Sensed → MotionTarget: the joint coordination control of the thesis (rows J1 … J5)."""
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+from jaxtyping import Float
+from gaitwright.compiled import kernel
+
+from gaitwright.gait.contacts import advance_legs, is_lifting, is_missing, shares, swing_time
+from gaitwright.gait.ground import advance_ground, plane_height, plane_normal
+from gaitwright.gait.posture import advance_anchor, sample, slew
+from gaitwright.gait.reference import periodic_reference
+from gaitwright.gait.state import SEARCH, STANCE, SWING, GaitState, standing
+from gaitwright.gait.swing import hip_over_ground, search_reference, swing_reference, touchdown
+from gaitwright.geometry import GRAVITY, add, heading, rotation, scale, sub, times, times_t, upright_rotation, vec
+from gaitwright.model.kinematics import all_angles, all_feet
+from gaitwright.model.robot import Robot
+from gaitwright.signals import Gait, MotionTarget, Sensed, SkillCall
+
+CONTACT_THRESHOLD = 0.02
+"""A foot that carries this share of the weight is in contact."""
+
+
+@kernel
+def feet_in_world(model, rotation_wb, position, q):
+    """Foot centres `(legs, 3)` in the world [m]."""
+    out = all_feet(model.hip, model.leg_frame, model.offset, model.sign, q)
+    for leg in range(out.shape[0]):
+        p = times(rotation_wb, vec(out[leg]))
+        for i in range(3):
+            out[leg, i] = position[i] + p[i]
+    return out
+
+
+@kernel
+def feet_in_base(rotation_wb, position, feet_w):
+    """World foot centres `(legs, 3)` seen from a base at `position` with `rotation_wb` [m]."""
+    out = np.empty(feet_w.shape)
+    for leg in range(feet_w.shape[0]):
+        p = times_t(rotation_wb, sub(vec(feet_w[leg]), position))
+        out[leg, 0], out[leg, 1], out[leg, 2] = p
+    return out
+
+
+@kernel
+def copied(state):
+    return GaitState(
+        state.phase.copy(),
+        state.command.copy(),
+        state.anchor.copy(),
+        state.slope.copy(),
+        state.mode.copy(),
+        state.progress.copy(),
+        state.age.copy(),
+        state.unfelt.copy(),
+        state.origin.copy(),
+        state.contact.copy(),
+    )
+
+
+@kernel
+def base_reference(state, table, stand, position, yaw_d):
+    """Position, velocity and acceleration of the base origin, and its pitch motion (θ, θ̇, θ̈)."""
+    y, yd, ydd, z, zd, zdd, p, pd, pdd = sample(table, state.phase[0])
+    c, s = math.cos(yaw_d), math.sin(yaw_d)
+    vx = c * state.command[0] - s * (state.command[1] + yd)
+    vy = s * state.command[0] + c * (state.command[1] + yd)
+    climb = state.slope[0] * vx + state.slope[1] * vy
+    at_x, at_y = state.anchor[0] - s * y, state.anchor[1] + c * y
+    height = plane_height(state.slope, position, position[0], position[1]) + stand + z
+    return (at_x, at_y, height), (vx, vy, climb + zd), (-s * ydd, c * ydd, zdd), (p, pd, pdd)
+
+
+@kernel
+def feet_reference(model, stance, state, clock, rotation_d, position, velocity, wanted, feet_w, height):
+    """References `(legs, 3)` of the foot centres: position, velocity, acceleration."""
+    period, duty = clock
+    n = feet_w.shape[0]
+    p, v, a = feet_w.copy(), np.zeros((n, 3)), np.zeros((n, 3))
+    duration = swing_time(period, duty)
+    capture = math.sqrt(height / GRAVITY)
+    for leg in range(n):
+        if state.mode[leg] == SWING:
+            s = min(state.progress[leg], 1.0)
+            hip_x, hip_y, arm_x, arm_y = hip_over_ground(rotation_d, position, stance[leg])
+            x, y = touchdown(
+                hip_x,
+                hip_y,
+                arm_x,
+                arm_y,
+                velocity,
+                wanted,
+                state.command[2],
+                (1.0 - s) * duration,
+                period * min(duty, 0.75),
+                capture,
+                height,
+            )
+            ground = plane_height(state.slope, position, x, y)
+            swing_reference(state.origin[leg], x, y, ground, s, duration, height, p[leg], v[leg], a[leg])
+        elif state.mode[leg] == SEARCH:
+            search_reference(state.origin[leg], state.progress[leg], height, p[leg], v[leg], a[leg])
+    return p, v, a
+
+
+@kernel
+def coordinate(
+    model, stance, height, stand, table, old, clock, offsets, asked, position, orientation, velocity, q, load, dt
+):
+    """One tick of joint coordination: the new memory and the fields of a `MotionTarget`.
+
+    `stance`: nominal feet `(legs, 3)`, base frame; `stand`: height of the base over the foot centres;
+    `clock`: (period, duty); `asked`: forward, left, yaw rate.
+    """
+    period, duty = clock
+    state = copied(old)
+    rotation_wb = rotation(orientation)
+    at, v = vec(position), vec(velocity)
+    feet_w = feet_in_world(model, rotation_wb, at, q)
+    phase = state.phase[0]
+    step = dt / period if duty < 1.0 else 0.0
+    missing = is_missing(state, phase, step, duty, offsets)
+    if not (missing and is_lifting(state, phase, step, duty, offsets)):
+        phase = (phase + step) % 1.0
+    advance_legs(state, old.phase[0], phase, period, duty, offsets, load > 0.0, feet_w, dt)
+    state.phase[0] = phase
+    advance_ground(state.slope, state.contact, at, v, 0.5 * period, dt)
+    slew(state.command, asked, asked[2], GRAVITY, height, dt)
+    advance_anchor(state.anchor, state.command, at, heading(rotation_wb), height, dt)
+
+    base_p, base_v, base_a, pitch = base_reference(state, table, stand, at, state.anchor[2])
+    normal = plane_normal(state.slope)
+    level = upright_rotation(normal, state.anchor[2])
+    rotation_d = pitched(level, pitch[0])
+    lateral = (rotation_d[0, 1], rotation_d[1, 1], rotation_d[2, 1])
+    spin = add(scale(pitch[1], lateral), (0.0, 0.0, state.command[2]))
+    spin_rate = scale(pitch[2], lateral)
+    feet, feet_v, feet_a = feet_reference(
+        model, stance, state, clock, level, at, v, base_v, feet_w, height
+    )
+    angles, _ = all_angles(
+        model.hip, model.leg_frame, model.offset, model.sign, model.branch, feet_in_base(rotation_d, base_p, feet)
+    )
+    share = shares(state, phase, period, duty, offsets, missing)
+    return (
+        state,
+        state.mode == STANCE,
+        share,
+        np.array(normal),
+        np.array(base_p),
+        np.array(base_v),
+        np.array(base_a),
+        rotation_d,
+        np.array(spin),
+        np.array(spin_rate),
+        feet,
+        feet_v,
+        feet_a,
+        angles,
+    )
+
+
+@kernel
+def pitched(matrix, angle):
+    """`matrix` turned about its own y axis by `angle` [rad]."""
+    c, s = math.cos(angle), math.sin(angle)
+    out = matrix.copy()
+    for i in range(3):
+        out[i, 0] = c * matrix[i, 0] - s * matrix[i, 2]
+        out[i, 2] = s * matrix[i, 0] + c * matrix[i, 2]
+    return out
+
+
+@dataclass(frozen=True)
+class Coordinator:
+    """Turns skill calls into targets for body, feet and joints of one robot."""
+
+    robot: Robot
+    dt: float
+    """Control period [s]."""
+    tables: dict[Gait, Float[np.ndarray, "bins 9"]] = field(default_factory=dict)
+    """Periodic references worked out so far, by gait."""
+
+    def begin(self, sensed: Sensed, phase: float = 0.0) -> GaitState:
+        """The memory of a robot that stands as sensed and will start its first gait at `phase`."""
+        turn = rotation(sensed.orientation_wb)
+        feet = feet_in_world(self.robot.arrays, turn, tuple(sensed.position_w), sensed.q)
+        return standing(feet, sensed.position_w, heading(turn), phase)
+
+    def move(self, state: GaitState, call: SkillCall, sensed: Sensed) -> tuple[MotionTarget, GaitState]:
+        """What body, feet and joints should do now, and the memory for the next tick."""
+        robot, gait = self.robot, call.gait
+        # A load below the threshold counts as none.
+        load = sensed.load - CONTACT_THRESHOLD * GRAVITY * robot.total_mass
+        state, *fields = coordinate(
+            robot.arrays,
+            robot.stance,
+            robot.height,
+            self.stand,
+            self.reference(gait),
+            state,
+            (gait.period, gait.duty),
+            np.array(gait.offsets),
+            (call.velocity[0], call.velocity[1], call.turn),
+            sensed.position_w,
+            sensed.orientation_wb,
+            sensed.velocity_w,
+            sensed.q,
+            load,
+            self.dt,
+        )
+        return MotionTarget(float(state.phase[0]), *fields, state.command), state
+
+    @property
+    def stand(self) -> float:
+        """Height of the base origin over the foot centres in the nominal stance [m]."""
+        return -float(self.robot.stance[:, 2].mean())
+
+    def reference(self, gait: Gait) -> Float[np.ndarray, "bins 9"]:
+        """The periodic reference of `gait`, worked out at its first use."""
+        table = self.tables.get(gait)
+        if table is None:
+            table = self.tables[gait] = periodic_reference(self.robot, gait)
+        return table

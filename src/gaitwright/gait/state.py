@@ -1,0 +1,51 @@
+"""What the coordinator remembers from tick to tick: a value, handed in and handed back."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+STANCE, SWING, SEARCH = 0, 1, 2
+"""Modes of a leg: carrying load, on its way, or late and being lowered until it touches."""
+
+
+class GaitState(NamedTuple):
+    """Memory of the gait. Arrays per leg are in the robot's leg order; world axes."""
+
+    phase: np.ndarray
+    """`(1,)` phase φ in [0, 1)."""
+    command: np.ndarray
+    """`(3,)` slewed command: forward, left [m/s], yaw rate [rad/s]."""
+    anchor: np.ndarray
+    """`(3,)` where the body should be by now: x, y [m], yaw [rad]; on a leash."""
+    slope: np.ndarray
+    """`(3,)` ground plane of the foot centres: ∂z/∂x, ∂z/∂y, and its height under the base [m]."""
+    mode: np.ndarray
+    """`(legs,)` STANCE, SWING or SEARCH."""
+    progress: np.ndarray
+    """`(legs,)` share of the swing done, or seconds of search."""
+    age: np.ndarray
+    """`(legs,)` time since this stance began [s]."""
+    unfelt: np.ndarray
+    """`(legs,)` time since contact was last felt [s]."""
+    origin: np.ndarray
+    """`(legs, 3)` where the swing, or the search, began [m]."""
+    contact: np.ndarray
+    """`(legs, 3)` centre of the foot at its last contact [m]."""
+
+
+def standing(feet_w: np.ndarray, position_w: np.ndarray, yaw: float, phase: float) -> GaitState:
+    """The memory of a robot that stands on all its feet `(legs, 3)`, about to start at `phase`."""
+    n = len(feet_w)
+    ground = float(feet_w[:, 2].mean())
+    return GaitState(
+        phase=np.array([phase]),
+        command=np.zeros(3),
+        anchor=np.array([position_w[0], position_w[1], yaw]),
+        slope=np.array([0.0, 0.0, ground]),
+        mode=np.zeros(n, dtype=np.int64),
+        progress=np.zeros(n),
+        age=np.full(n, 10.0),
+        unfelt=np.zeros(n),
+        origin=feet_w.copy(),
+        contact=feet_w.copy(),
+    )

@@ -1,0 +1,1 @@
+"""Mission + Sensed → Route (learned map, shortest paths, local strategy)."""

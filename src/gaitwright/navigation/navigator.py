@@ -1,0 +1,68 @@
+"""Mission + Sensed → Route: which way."""
+
+import math
+from dataclasses import dataclass, replace
+
+from gaitwright.model.robot import Robot
+from gaitwright.model.scene import Scene
+from gaitwright.navigation.obstacles import PlanView, plan_view
+from gaitwright.navigation.visibility import length, shortest_path
+from gaitwright.signals import Mission, Route, Sensed
+
+ARRIVED = 0.15
+"""The goal is reached within this many body lengths."""
+STOP_AT = 0.06
+"""The robot begins to stop within this many body lengths, so that it stands within `ARRIVED`."""
+PASSED = 0.5
+"""A way-point or a corner counts as passed within this many body lengths."""
+
+
+@dataclass(frozen=True)
+class Navigator:
+    """Plans among the obstacles of a known scene."""
+
+    robot: Robot
+    view: PlanView
+
+    @classmethod
+    def of(cls, robot: Robot, scene: Scene) -> "Navigator":
+        return cls(robot, plan_view(scene, robot))
+
+    def set_out(self, mission: Mission, sensed: Sensed) -> Route:
+        """The route of a new mission; `no_way` says so where there is none."""
+        here = place(sensed)
+        path: list[tuple[float, float]] = []
+        for point in mission.waypoints:
+            if not self.view.inside(point):
+                return self.nowhere(mission, f"({point[0]:g}, {point[1]:g}) lies outside the scene")
+            leg = shortest_path(self.view, path[-1] if path else here, point)
+            if leg is None:
+                reason = "stands an obstacle" if self.view.blocked(point) else "leads no way"
+                where = "on" if self.view.blocked(point) else "to"
+                return self.nowhere(mission, f"{where} ({point[0]:g}, {point[1]:g}) {reason}")
+            path.extend(leg)
+        return Route(tuple(path), length(here, tuple(path)), mission.speed, mission.driver)
+
+    def plan(self, route: Route, sensed: Sensed) -> Route:
+        """What is left of `route` from where the robot is now."""
+        if not route.path:
+            return route
+        here, path = place(sensed), route.path
+        unit = self.robot.body_length
+        while len(path) > 1 and math.dist(here, path[0]) < PASSED * unit:
+            path = path[1:]
+        left = length(here, path)
+        arrived = route.arrived or (len(path) == 1 and left < STOP_AT * unit)
+        return replace(route, path=path, remaining=left, arrived=arrived)
+
+    def nowhere(self, mission: Mission, sentence: str) -> Route:
+        return Route((), 0.0, mission.speed, mission.driver, no_way=sentence)
+
+    def at_goal(self, mission: Mission, sensed: Sensed) -> bool:
+        """Whether the robot stands within `ARRIVED` body lengths of the goal."""
+        return math.dist(place(sensed), mission.waypoints[-1]) <= ARRIVED * self.robot.body_length
+
+
+def place(sensed: Sensed) -> tuple[float, float]:
+    """Where the robot is, seen from above [m]."""
+    return float(sensed.position_w[0]), float(sensed.position_w[1])

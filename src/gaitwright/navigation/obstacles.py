@@ -1,0 +1,45 @@
+"""The plan view that a path must keep clear of: boxes grown by half the robot's width, and the scene's edge."""
+
+from dataclasses import dataclass
+
+import shapely
+from shapely import Polygon
+
+from gaitwright.model.robot import Robot
+from gaitwright.model.scene import Scene
+
+CLEARANCE = 0.15
+"""Room beside the robot's feet, in body lengths."""
+
+
+@dataclass(frozen=True)
+class PlanView:
+    """Grown obstacles and the free field, as plane polygons [m]."""
+
+    obstacles: tuple[Polygon, ...]
+    field: Polygon
+
+    def inside(self, point: tuple[float, float]) -> bool:
+        """Whether a point lies in the field."""
+        return bool(self.field.contains(shapely.Point(point)))
+
+    def blocked(self, point: tuple[float, float]) -> bool:
+        """Whether a point lies within a grown obstacle."""
+        place = shapely.Point(point)
+        return any(o.contains(place) for o in self.obstacles)
+
+
+def half_width(robot: Robot) -> float:
+    """Room the robot needs to either side of its path [m]: its feet and a clearance."""
+    return float(abs(robot.stance[:, 1]).max()) + CLEARANCE * robot.body_length
+
+
+def plan_view(scene: Scene, robot: Robot) -> PlanView:
+    """The scene as the planner sees it."""
+    margin = half_width(robot)
+    grown = (
+        Polygon(box.corners()).buffer(margin, join_style="mitre", mitre_limit=1.5) for box in scene.obstacles(robot)
+    )
+    merged = shapely.union_all(list(grown))
+    parts = getattr(merged, "geoms", [merged])
+    return PlanView(tuple(p for p in parts if not p.is_empty), shapely.box(*scene.bounds))

@@ -1,0 +1,1 @@
+"""Route + Sensed → SkillCall (the library of skills, and which of them when)."""

@@ -1,0 +1,116 @@
+"""The skills: one row each, scaled to the robot's size (rows J1, J2; control.md, "Gaits")."""
+
+from dataclasses import dataclass
+from math import sqrt
+
+from gaitwright.errors import WrongUse, unknown
+from gaitwright.geometry import GRAVITY
+from gaitwright.model.robot import Robot
+from gaitwright.signals import Gait
+
+REFERENCE_HEIGHT = 0.29
+"""Body height [m] at which the periods and speeds below are given."""
+
+
+@dataclass(frozen=True, slots=True)
+class Skill:
+    """One way of moving. Periods in seconds and speeds in m/s at a body height of 0.29 m."""
+
+    name: str
+    period: float
+    duty: float
+    offsets: str
+    """Name of the pattern of relative phases, a row of `PATTERNS`."""
+    speed: float
+    """The speed it is meant for [m/s]."""
+    fastest: float
+    """The speed beyond which it is not offered [m/s]."""
+    about: str
+
+
+PATTERNS: dict[str, tuple[float, ...]] = {
+    "walk": (0.75, 0.25, 0.0, 0.5),
+    "diagonal": (0.0, 0.5, 0.5, 0.0),
+    "lateral": (0.0, 0.5, 0.0, 0.5),
+    "single-foot": (0.25, 0.75, 0.0, 0.5),
+    "together": (0.0, 0.0, 0.0, 0.0),
+    "front-rear": (0.0, 0.0, 0.5, 0.5),
+    "transverse": (0.0, 0.15, 0.5, 0.65),
+    "rotary": (0.0, 0.15, 0.65, 0.5),
+}
+"""Relative phases of FL FR RL RR."""
+
+LIBRARY: dict[str, Skill] = {
+    skill.name: skill
+    for skill in (
+        Skill("stand", 0.40, 1.00, "together", 0.0, 0.0, "all feet on the ground"),
+        Skill("walk", 0.60, 0.75, "walk", 0.25, 0.45, "one foot at a time; six-legged: a ripple"),
+        Skill("trot", 0.40, 0.60, "diagonal", 0.40, 1.00, "diagonal pairs; six-legged: tripods"),
+        Skill("turn", 0.40, 0.60, "diagonal", 0.0, 0.40, "turning on the spot, in trot"),
+        Skill("run", 0.36, 0.45, "diagonal", 1.50, 2.50, "a flying trot"),
+        Skill("pace", 0.34, 0.60, "lateral", 0.60, 1.30, "left and right pairs"),
+        Skill("rack", 0.40, 0.60, "single-foot", 0.40, 0.90, "evenly, foot by foot"),
+        Skill("pronk", 0.40, 0.55, "together", 0.60, 1.30, "all feet together"),
+        Skill("bound", 0.34, 0.50, "front-rear", 0.80, 1.70, "front pair, rear pair"),
+        Skill("gallop", 0.34, 0.45, "transverse", 1.20, 2.00, "transverse gallop"),
+        Skill("rotary-gallop", 0.34, 0.45, "rotary", 1.20, 2.00, "rotary gallop"),
+    )
+}
+
+MANY_LEGGED = ("stand", "walk", "trot", "turn")
+"""The skills that robots of six or eight legs have."""
+
+
+def skill_names(legs: int = 4) -> tuple[str, ...]:
+    """Names of the skills a robot of so many legs has."""
+    return tuple(LIBRARY) if legs == 4 else MANY_LEGGED
+
+
+def find_skill(name: str, robot: Robot) -> Skill:
+    """The row `name`; `WrongUse` naming what exists where the robot has no such skill."""
+    if name not in skill_names(robot.n):
+        raise unknown("skill", name, skill_names(robot.n))
+    return LIBRARY[name]
+
+
+def gait_of(skill: Skill, robot: Robot) -> Gait:
+    """The gait of a skill on a robot: its period grows with √h, its phases with the number of legs."""
+    period = skill.period * sqrt(robot.height / REFERENCE_HEIGHT)
+    return Gait(skill.name, period, skill.duty, relative_phases(skill.offsets, robot.n))
+
+
+def relative_phases(pattern: str, legs: int) -> tuple[float, ...]:
+    """Phases of `legs` legs in the order front to rear, left first.
+
+    Beyond four legs, pairs alternate (tripods) and the walk is a ripple from rear to front.
+    """
+    if legs == 4 or pattern == "together":
+        return PATTERNS[pattern][:1] * legs if pattern == "together" else PATTERNS[pattern]
+    pairs = legs // 2
+    if pattern == "diagonal":
+        return tuple(0.5 * ((i // 2 + i % 2) % 2) for i in range(legs))
+    return tuple(((pairs - 1 - i // 2) / pairs + 0.5 * (i % 2)) % 1.0 for i in range(legs))
+
+
+def speed_scale(robot: Robot) -> float:
+    """How much faster than a robot of 0.29 m height this one is meant to go: equal Froude numbers."""
+    return sqrt(robot.height / REFERENCE_HEIGHT)
+
+
+def fastest(skill: Skill, robot: Robot) -> float:
+    """Fastest speed at which the skill is offered [m/s]; a step must stay within the leg's reach."""
+    gait = gait_of(skill, robot)
+    step = 2.0 * 0.6 * robot.height
+    by_reach = step / (gait.period * skill.duty)
+    return min(skill.fastest * speed_scale(robot), by_reach)
+
+
+def check_speed(skill: Skill, robot: Robot, speed: float) -> None:
+    """`WrongUse` where `speed` [m/s] is beyond what the skill can do on this robot."""
+    most = fastest(skill, robot)
+    if speed > most * (1 + 1e-9):
+        weight = robot.total_mass * GRAVITY
+        raise WrongUse(
+            f"{skill.name} at {speed:g} m/s is beyond the reach of {robot.name} ({weight:.0f} N on legs of "
+            f"{robot.leg_length:.2f} m): at most {most:.2f} m/s"
+        )
