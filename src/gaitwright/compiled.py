@@ -6,9 +6,14 @@ cache goes stale when a callee in another file changes. A folder named after all
 
 import hashlib
 import os
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
-from numba import config, njit
+import numba
+from numba import njit
+
+settings: Any = vars(numba)["config"]  # its names are set at run time
 
 
 def sources_digest() -> str:
@@ -29,11 +34,11 @@ def cache_folder() -> Path:
 
 def is_warm() -> bool:
     """Whether the kernels of these sources were compiled before: asked of the one that takes longest."""
-    return any(Path(config.CACHE_DIR).rglob("coordinator.coordinate-*.nbc"))
+    return any(Path(settings.CACHE_DIR).rglob("coordinator.coordinate-*.nbc"))
 
 
-if not config.CACHE_DIR:
-    config.CACHE_DIR = str(cache_folder())
+if not settings.CACHE_DIR:
+    settings.CACHE_DIR = str(cache_folder())
 
-kernel = njit(cache=True, error_model="numpy")
+kernel: Callable[[Callable[..., Any]], Callable[..., Any]] = njit(cache=True, error_model="numpy")
 """Marks a function as a kernel: plain arithmetic on arrays and tuples, compiled at its first call."""

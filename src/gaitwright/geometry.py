@@ -8,6 +8,7 @@ import math
 
 import numpy as np
 from jaxtyping import Float
+
 from gaitwright.compiled import kernel
 
 GRAVITY = 9.81
@@ -94,6 +95,16 @@ def rotation(quaternion):
     out[0, 0], out[0, 1], out[0, 2] = 1 - k * (y * y + z * z), k * (x * y - w * z), k * (x * z + w * y)
     out[1, 0], out[1, 1], out[1, 2] = k * (x * y + w * z), 1 - k * (x * x + z * z), k * (y * z - w * x)
     out[2, 0], out[2, 1], out[2, 2] = k * (x * z - w * y), k * (y * z + w * x), 1 - k * (x * x + y * y)
+    return out
+
+
+@kernel
+def between(start, end):
+    """The rotation that takes `start` to `end`: `end @ start.T`."""
+    out = np.empty((3, 3))
+    for i in range(3):
+        for j in range(3):
+            out[i, j] = dot(vec(end[i]), vec(start[j]))
     return out
 
 

@@ -8,17 +8,19 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from time import perf_counter_ns
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
-from gaitwright.control.numerical import NumericalController, idle
+from gaitwright.control.numerical import Method, NumericalController, idle
 from gaitwright.gait.coordinator import Coordinator
 from gaitwright.gait.state import GaitState
 from gaitwright.geometry import GRAVITY, rotation
 from gaitwright.model.robot import Robot
+from gaitwright.model.scene import Scene
 from gaitwright.navigation.navigator import Navigator
 from gaitwright.signals import Mission, MotionTarget, Route, Sensed, SkillCall, Torques
+from gaitwright.skills.chooser import PlainChooser
 
 LOOK_EVERY = 0.1
 """The navigator looks at the route this often [s]."""
@@ -34,18 +36,21 @@ STUCK = 15.0
 """A mission without progress for this long, times √(h/0.29 m) [s], has got stuck."""
 
 
+@runtime_checkable
 class Controller(Protocol):
     """MotionTarget + Sensed → Torques."""
 
     def torques(self, target: MotionTarget, sensed: Sensed, previous: Torques | None = None) -> Torques: ...
 
 
+@runtime_checkable
 class Chooser(Protocol):
     """Route + Sensed → SkillCall."""
 
     def choose(self, route: Route, sensed: Sensed, now: SkillCall | None = None) -> SkillCall: ...
 
 
+@runtime_checkable
 class Plant(Protocol):
     """Torques → Sensed: a simulated robot, or a real one."""
 
@@ -65,6 +70,28 @@ class Brain:
     chooser: Chooser
     coordinator: Coordinator
     controllers: dict[str, Controller]
+
+    @classmethod
+    def of(
+        cls,
+        robot: Robot,
+        scene: Scene,
+        chooser: Chooser | None = None,
+        dt: float = 0.002,
+        method: Method = "qp",
+    ) -> "Brain":
+        """A brain for a robot in a scene it knows, its torques by the numerical controller.
+
+        `chooser`: by default the plain rules of `skills.chooser`; `dt`: control period [s]; `method`: how
+        foot forces are shared, `"qp"` or the thesis's `"lp"`.
+        """
+        return cls(
+            robot,
+            Navigator.of(robot, scene),
+            chooser or PlainChooser(robot),
+            Coordinator(robot, dt),
+            {"numerical": NumericalController(robot, method)},
+        )
 
     def begin(self, mission: Mission, sensed: Sensed, phase: float = 0.0) -> "Mind":
         """The mind of a robot that stands as sensed and gets a mission."""
@@ -168,7 +195,7 @@ class Watch:
     def __init__(self, brain: Brain, mission: Mission, seconds: float) -> None:
         self.brain, self.mission, self.seconds = brain, mission, seconds
         robot = brain.robot
-        self.stand = brain.coordinator.stand
+        self.stand = robot.stand
         self.pace = math.sqrt(GRAVITY * robot.height)
         self.patience = STUCK * math.sqrt(robot.height / 0.29)
         self.air_limit = AIRBORNE * math.sqrt(robot.height / GRAVITY)
@@ -180,7 +207,9 @@ class Watch:
         now = lap.sensed.time
         if not np.isfinite(lap.torques.tau).all():
             off = idle(self.brain.robot)
-            return replace(lap, torques=off, stopped_because=f"a torque is not a number at {now:.3f} s: motors stopped")
+            return replace(
+                lap, torques=off, stopped_because=f"a torque is not a number at {now:.3f} s: motors stopped"
+            )
         if fallen := self.fallen(lap):
             return replace(lap, stopped_because=fallen, fell=True)
         if fault := self.fault(lap):
@@ -237,11 +266,3 @@ class Watch:
         if not lap.route.path:
             return f"the {self.seconds:g} s asked for are over"
         return f"out of time after {self.seconds:g} s, {lap.route.remaining:.2f} m before the goal"
-
-
-def numerical_brain(robot: Robot, navigator: Navigator, chooser: Chooser, dt: float, method: str = "qp") -> Brain:
-    """A brain whose torques come from the numerical controller."""
-    if method not in ("qp", "lp"):
-        raise ValueError(method)
-    controller = NumericalController(robot, "lp" if method == "lp" else "qp")
-    return Brain(robot, navigator, chooser, Coordinator(robot, dt), {"numerical": controller})

@@ -1,6 +1,7 @@
 """The values on the arrows of the data flow, one frozen value per arrow.
 
-    Mission ─► navigation ─► Route ─► skills ─► SkillCall ─► gait ─► MotionTarget ─► control ─► Torques ─► plant ─► Sensed
+    Mission ─► navigation ─► Route ─► skills ─► SkillCall ─► gait ─► MotionTarget
+            ─► control ─► Torques ─► plant ─► Sensed
 
 SI units and radians. `_w`: world axes; `_b`: base axes; quaternions `(w, x, y, z)`. Arrays per leg are
 `(legs, 3)` in the robot's leg order. Arrays are copies, never views into a simulator.

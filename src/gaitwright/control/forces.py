@@ -5,15 +5,11 @@ programs have the same limits: friction pyramid, normal force between 0 and a bo
 ends of stance, torque limits of both signs (equations.md §5, control.md "Force distribution").
 """
 
-from dataclasses import dataclass
-from typing import Literal
-
 import numpy as np
-from jaxtyping import Bool, Float
-from gaitwright.compiled import kernel
 
-from gaitwright.control.solvers import solve_qp
-from gaitwright.geometry import GRAVITY, cross, dot, scale, sub, vec
+from gaitwright.compiled import kernel
+from gaitwright.control.demand import load_of
+from gaitwright.geometry import cross, dot, scale, sub, vec
 
 FRICTION = 0.5
 """Half-width of the friction pyramid, as a share of the normal force."""
@@ -27,34 +23,6 @@ SMALL = 1e-4
 """Price of a force in itself (‖f‖²), which spreads the load."""
 SMOOTH = 1e-3
 """Price of a change of force from tick to tick (‖f − f_prev‖²)."""
-
-Method = Literal["qp", "lp"]
-
-
-@dataclass(frozen=True, slots=True)
-class Load:
-    """What the feet are asked to do, as `control.demand` hands it over."""
-
-    wrench: Float[np.ndarray, "6"]
-    """Force and moment about the base origin, world axes [N, N·m]."""
-    free: Float[np.ndarray, "legs 3"]
-    """Joint torques with unloaded feet [N·m]."""
-    arm: Float[np.ndarray, "legs 3"]
-    """Base origin → contact point, world axes [m]."""
-    push: Float[np.ndarray, "legs 3 3"]
-    """τ = free − push @ f."""
-
-
-@dataclass(frozen=True, slots=True)
-class Distribution:
-    """Foot forces with their proof."""
-
-    forces_w: Float[np.ndarray, "legs 3"]
-    """Ground → foot, world axes [N]."""
-    residual: float
-    """Length of the wanted wrench that is not met, rows scaled as in the program (share of the weight)."""
-    status: str
-    """`solved`, or why not."""
 
 
 @kernel
@@ -152,21 +120,14 @@ def to_world(x, stance, frame, weight):
 
 
 @kernel
-def residual(rows, x, wanted):
-    total = 0.0
-    for i in range(6):
-        e = -wanted[i]
-        for j in range(x.size):
-            e += rows[i, j] * x[j]
-        total += e * e
-    return np.sqrt(total)
+def quadratic_program(load_numbers, stance, share, normal, previous, tau_max, weight, height):
+    """The program min ½‖balance‖² + ½ small ‖x‖² + ½ smooth ‖x − x_prev‖² under the limits.
 
-
-@kernel
-def quadratic_program(wrench, free, arm, push, stance, share, normal, previous, tau_max, weight, height):
-    """The quadratic program min ‖balance‖² + small ‖x‖² + smooth ‖x − x_prev‖² under the limits."""
+    Takes a packed `Load`; returns hessian, gradient, rows, lower and upper bounds as `solve_qp` reads them.
+    """
+    load = load_of(load_numbers)
     frame = contact_frame(normal)
-    rows, wanted = balance_rows(wrench, arm, stance, frame, weight, height)
+    rows, wanted = balance_rows(load.wrench, load.arm, stance, frame, weight, height)
     x_prev = to_contact(previous, stance, frame, weight)
     n = x_prev.size
     hessian, gradient = np.empty((n, n)), np.empty(n)
@@ -181,26 +142,31 @@ def quadratic_program(wrench, free, arm, push, stance, share, normal, previous, 
         for r in range(6):
             total += rows[r, i] * wanted[r]
         gradient[i] = -total
-    limits, lower, upper = limit_rows(free, push, stance, share, frame, tau_max, weight)
-    return hessian, gradient, limits, lower, upper, frame, rows, wanted
+    limits, lower, upper = limit_rows(load.free, load.push, stance, share, frame, tau_max, weight)
+    return hessian, gradient, limits, lower, upper
 
 
-def distribute(
-    load: Load,
-    stance: Bool[np.ndarray, "legs"],
-    share: Float[np.ndarray, "legs"],
-    normal_w: Float[np.ndarray, "3"],
-    previous_w: Float[np.ndarray, "legs 3"],
-    tau_max: Float[np.ndarray, "legs 3"],
-    mass: float,
-    height: float,
-) -> Distribution:
-    """Foot forces [N] that come nearest to the wanted wrench, by the quadratic program."""
-    if not stance.any():
-        return Distribution(np.zeros_like(previous_w), 0.0, "solved")
-    weight = mass * GRAVITY
-    hessian, gradient, limits, lower, upper, frame, rows, wanted = quadratic_program(
-        load.wrench, load.free, load.arm, load.push, stance, share, normal_w, previous_w, tau_max, weight, height
-    )
-    x, status = solve_qp(hessian, gradient, limits, lower, upper)
-    return Distribution(to_world(x, stance, frame, weight), residual(rows, x, wanted), status)
+@kernel
+def conclude(load_numbers, stance, normal, x, tau_max, weight, height):
+    """Joint torques and foot forces `(legs, 3)` of a solution, and the length of the unmet wrench.
+
+    The torques are τ = free − push @ f, kept within the limits; the unmet wrench is scaled as in the
+    program (a share of the weight).
+    """
+    load = load_of(load_numbers)
+    frame = contact_frame(normal)
+    forces = to_world(x, stance, frame, weight)
+    tau = np.empty(forces.shape)
+    for leg in range(stance.size):
+        for j in range(3):
+            t = load.free[leg, j] - dot(vec(load.push[leg, j]), vec(forces[leg]))
+            tau[leg, j] = min(max(t, -tau_max[leg, j]), tau_max[leg, j])
+    unmet = 0.0
+    if stance.any():
+        rows, wanted = balance_rows(load.wrench, load.arm, stance, frame, weight, height)
+        for i in range(6):
+            e = -wanted[i]
+            for j in range(rows.shape[1]):
+                e += rows[i, j] * x[j]
+            unmet += e * e
+    return tau, forces, np.sqrt(unmet)

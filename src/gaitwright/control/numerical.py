@@ -1,28 +1,20 @@
-"""The numerical controller: MotionTarget + Sensed → Torques by solving the dynamics at every tick (rows N1 … N4)."""
+"""MotionTarget + Sensed → Torques by solving the dynamics at every tick: the NC (rows N1 … N4)."""
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from jaxtyping import Float
-from gaitwright.compiled import kernel
 
 from gaitwright.control.demand import demand
-from gaitwright.control.forces import Load, Method, distribute
+from gaitwright.control.forces import conclude, quadratic_program
+from gaitwright.control.linear import linear_program
+from gaitwright.control.solvers import solve_lp, solve_qp
+from gaitwright.geometry import GRAVITY
 from gaitwright.model.robot import Robot
 from gaitwright.signals import MotionTarget, Sensed, Torques
 
-
-@kernel
-def joint_torques(free, push, forces, tau_max):
-    """τ = free − push @ f, kept within the limits."""
-    out = np.empty(free.shape)
-    for leg in range(free.shape[0]):
-        for j in range(3):
-            tau = free[leg, j]
-            for i in range(3):
-                tau -= push[leg, j, i] * forces[leg, i]
-            out[leg, j] = min(max(tau, -tau_max[leg, j]), tau_max[leg, j])
-    return out
+Method = Literal["qp", "lp"]
 
 
 @dataclass(frozen=True)
@@ -34,40 +26,52 @@ class NumericalController:
 
     def torques(self, target: MotionTarget, sensed: Sensed, previous: Torques | None = None) -> Torques:
         """Joint torques [N·m] for this tick; `previous` smooths the foot forces."""
-        robot = self.robot
-        load = Load(
-            *demand(
-                robot.arrays,
-                robot.natural_frequency,
-                robot.foot_radius,
-                sensed.position_w,
-                sensed.orientation_wb,
-                sensed.velocity_w,
-                sensed.angular_velocity_b,
-                sensed.q,
-                sensed.qd,
-                target.stance,
-                target.normal_w,
-                target.position_w,
-                target.velocity_w,
-                target.acceleration_w,
-                target.rotation_wb,
-                target.angular_velocity_w,
-                target.angular_acceleration_w,
-                target.feet_w,
-                target.feet_velocity_w,
-                target.feet_acceleration_w,
-            )
-        )
+        robot, stance, normal = self.robot, target.stance, target.normal_w
+        load = self.load(target, sensed)
+        weight, height, limits = robot.total_mass * GRAVITY, robot.height, robot.tau_max
         before = np.zeros((robot.n, 3)) if previous is None else previous.forces_w
-        shared = distribute(
-            load, target.stance, target.share, target.normal_w, before, robot.tau_max, robot.total_mass, robot.height
+        task = (load, stance, target.share, normal, before, limits, weight, height)
+        x, status = self.shared(task, sensed, int(np.count_nonzero(stance)))
+        tau, forces, unmet = conclude(load, stance, normal, x, limits, weight, height)
+        return Torques(tau, forces, unmet, status)
+
+    def shared(self, task: tuple, sensed: Sensed, feet: int) -> tuple[Float[np.ndarray, "n"], str]:
+        """How the feet that are down share the load, and whether they can; if not, they share it evenly."""
+        if not feet:
+            return np.zeros(0), "solved"
+        if self.method == "qp":
+            x, status = solve_qp(*quadratic_program(*task))
+        else:
+            x, status = solve_lp(*linear_program(*task, sensed.qd))
+        if not status.startswith("solved"):
+            x = np.tile((0.0, 0.0, 1.0 / feet), feet)
+        return x, status
+
+    def load(self, target: MotionTarget, sensed: Sensed) -> Float[np.ndarray, "numbers"]:
+        """What the target asks of feet and motors: a packed `control.demand.Load`."""
+        return demand(
+            self.robot.packed,
+            self.robot.natural_frequency,
+            sensed.position_w,
+            sensed.orientation_wb,
+            sensed.velocity_w,
+            sensed.angular_velocity_b,
+            sensed.q,
+            sensed.qd,
+            target.stance,
+            target.normal_w,
+            target.position_w,
+            target.velocity_w,
+            target.acceleration_w,
+            target.rotation_wb,
+            target.angular_velocity_w,
+            target.angular_acceleration_w,
+            target.feet_w,
+            target.feet_velocity_w,
+            target.feet_acceleration_w,
         )
-        tau = joint_torques(load.free, load.push, shared.forces_w, robot.tau_max)
-        return Torques(tau, shared.forces_w, shared.residual, shared.status)
 
 
 def idle(robot: Robot) -> Torques:
     """Motors off."""
-    zero: Float[np.ndarray, "legs 3"] = np.zeros((robot.n, 3))
-    return Torques(zero, zero, 0.0, "motors off")
+    return Torques(np.zeros((robot.n, 3)), np.zeros((robot.n, 3)), 0.0, "motors off")

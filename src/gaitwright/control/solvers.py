@@ -19,7 +19,7 @@ EXIT_SENTENCES = {
 
 
 def solve_qp(
-    hessian: Float[np.ndarray, "n n"],
+    hessian: Float[np.ndarray, "n n"] | None,
     gradient: Float[np.ndarray, "n"],
     rows: Float[np.ndarray, "m n"],
     lower: Float[np.ndarray, "k"],
@@ -27,7 +27,18 @@ def solve_qp(
 ) -> tuple[Float[np.ndarray, "n"], str]:
     """Minimises ½xᵀHx + gᵀx; the first k − m bounds are on x itself, the others on `rows @ x`.
 
+    No hessian makes it a linear program.
     Returns x and a status sentence, `"solved"` where it is.
     """
     x, _, code, _ = daqp.solve(hessian, gradient, rows, upper, lower, np.zeros(upper.size, dtype=np.int32))
     return x, EXIT_SENTENCES.get(code, f"the solver stopped with code {code}")
+
+
+def solve_lp(
+    cost: Float[np.ndarray, "n"],
+    rows: Float[np.ndarray, "m n"],
+    lower: Float[np.ndarray, "k"],
+    upper: Float[np.ndarray, "k"],
+) -> tuple[Float[np.ndarray, "n"], str]:
+    """Minimises cᵀx under the same bounds as `solve_qp`."""
+    return solve_qp(None, cost, rows, lower, upper)

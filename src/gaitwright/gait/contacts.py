@@ -5,8 +5,8 @@ from then on; one that finds none is lowered, unloaded, until it does.
 """
 
 import numpy as np
-from gaitwright.compiled import kernel
 
+from gaitwright.compiled import kernel
 from gaitwright.gait.state import SEARCH, STANCE, SWING
 
 EARLY = 0.6

@@ -2,20 +2,32 @@
 
 import math
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float
-from gaitwright.compiled import kernel
 
+from gaitwright.compiled import kernel
 from gaitwright.gait.contacts import advance_legs, is_lifting, is_missing, shares, swing_time
 from gaitwright.gait.ground import advance_ground, plane_height, plane_normal
 from gaitwright.gait.posture import advance_anchor, sample, slew
 from gaitwright.gait.reference import periodic_reference
 from gaitwright.gait.state import SEARCH, STANCE, SWING, GaitState, standing
 from gaitwright.gait.swing import hip_over_ground, search_reference, swing_reference, touchdown
-from gaitwright.geometry import GRAVITY, add, heading, rotation, scale, sub, times, times_t, upright_rotation, vec
+from gaitwright.geometry import (
+    GRAVITY,
+    add,
+    heading,
+    rotation,
+    scale,
+    sub,
+    times,
+    times_t,
+    upright_rotation,
+    vec,
+)
 from gaitwright.model.kinematics import all_angles, all_feet
-from gaitwright.model.robot import Robot
+from gaitwright.model.robot import Robot, unpacked
 from gaitwright.signals import Gait, MotionTarget, Sensed, SkillCall
 
 CONTACT_THRESHOLD = 0.02
@@ -73,7 +85,7 @@ def base_reference(state, table, stand, position, yaw_d):
 
 
 @kernel
-def feet_reference(model, stance, state, clock, rotation_d, position, velocity, wanted, feet_w, height):
+def feet_reference(model, state, clock, rotation_d, position, velocity, wanted, feet_w, height):
     """References `(legs, 3)` of the foot centres: position, velocity, acceleration."""
     period, duty = clock
     n = feet_w.shape[0]
@@ -83,7 +95,7 @@ def feet_reference(model, stance, state, clock, rotation_d, position, velocity, 
     for leg in range(n):
         if state.mode[leg] == SWING:
             s = min(state.progress[leg], 1.0)
-            hip_x, hip_y, arm_x, arm_y = hip_over_ground(rotation_d, position, stance[leg])
+            hip_x, hip_y, arm_x, arm_y = hip_over_ground(rotation_d, position, model.stance[leg])
             x, y = touchdown(
                 hip_x,
                 hip_y,
@@ -106,13 +118,28 @@ def feet_reference(model, stance, state, clock, rotation_d, position, velocity, 
 
 @kernel
 def coordinate(
-    model, stance, height, stand, table, old, clock, offsets, asked, position, orientation, velocity, q, load, dt
+    packed,
+    height,
+    stand,
+    threshold,
+    table,
+    clock,
+    offsets,
+    old,
+    asked,
+    position,
+    orientation,
+    velocity,
+    q,
+    load,
+    dt,
 ):
     """One tick of joint coordination: the new memory and the fields of a `MotionTarget`.
 
-    `stance`: nominal feet `(legs, 3)`, base frame; `stand`: height of the base over the foot centres;
-    `clock`: (period, duty); `asked`: forward, left, yaw rate.
+    `packed`: the robot; `height`, `stand`: of its base over ground and foot centres; `threshold`: load of a
+    foot in contact [N]; `clock`: (period, duty); `old`: the memory; `asked`: forward, left, yaw rate.
     """
+    model = unpacked(packed)
     period, duty = clock
     state = copied(old)
     rotation_wb = rotation(orientation)
@@ -123,7 +150,7 @@ def coordinate(
     missing = is_missing(state, phase, step, duty, offsets)
     if not (missing and is_lifting(state, phase, step, duty, offsets)):
         phase = (phase + step) % 1.0
-    advance_legs(state, old.phase[0], phase, period, duty, offsets, load > 0.0, feet_w, dt)
+    advance_legs(state, old.phase[0], phase, period, duty, offsets, load > threshold, feet_w, dt)
     state.phase[0] = phase
     advance_ground(state.slope, state.contact, at, v, 0.5 * period, dt)
     slew(state.command, asked, asked[2], GRAVITY, height, dt)
@@ -136,11 +163,14 @@ def coordinate(
     lateral = (rotation_d[0, 1], rotation_d[1, 1], rotation_d[2, 1])
     spin = add(scale(pitch[1], lateral), (0.0, 0.0, state.command[2]))
     spin_rate = scale(pitch[2], lateral)
-    feet, feet_v, feet_a = feet_reference(
-        model, stance, state, clock, level, at, v, base_v, feet_w, height
-    )
+    feet, feet_v, feet_a = feet_reference(model, state, clock, level, at, v, base_v, feet_w, height)
     angles, _ = all_angles(
-        model.hip, model.leg_frame, model.offset, model.sign, model.branch, feet_in_base(rotation_d, base_p, feet)
+        model.hip,
+        model.leg_frame,
+        model.offset,
+        model.sign,
+        model.branch,
+        feet_in_base(rotation_d, base_p, feet),
     )
     share = shares(state, phase, period, duty, offsets, missing)
     return (
@@ -172,6 +202,38 @@ def pitched(matrix, angle):
     return out
 
 
+def target_of(state: GaitState, fields: tuple[np.ndarray, ...]) -> MotionTarget:
+    """The target in what `coordinate` returns after the memory."""
+    stance, share, normal, at, v, a, attitude, spin, spin_rate, feet, feet_v, feet_a, q = fields
+    return MotionTarget(
+        phase=float(state.phase[0]),
+        stance=stance,
+        share=share,
+        normal_w=normal,
+        position_w=at,
+        velocity_w=v,
+        acceleration_w=a,
+        rotation_wb=attitude,
+        angular_velocity_w=spin,
+        angular_acceleration_w=spin_rate,
+        feet_w=feet,
+        feet_velocity_w=feet_v,
+        feet_acceleration_w=feet_a,
+        q=q,
+        command=state.command,
+    )
+
+
+class Cycle(NamedTuple):
+    """A gait as the kernel reads it."""
+
+    clock: tuple[float, float]
+    """Period [s] and duty factor."""
+    offsets: Float[np.ndarray, "legs"]
+    table: Float[np.ndarray, "bins 9"]
+    """The periodic reference."""
+
+
 @dataclass(frozen=True)
 class Coordinator:
     """Turns skill calls into targets for body, feet and joints of one robot."""
@@ -179,8 +241,8 @@ class Coordinator:
     robot: Robot
     dt: float
     """Control period [s]."""
-    tables: dict[Gait, Float[np.ndarray, "bins 9"]] = field(default_factory=dict)
-    """Periodic references worked out so far, by gait."""
+    known: dict[Gait, Cycle] = field(default_factory=dict)
+    """Cycles worked out so far, by gait."""
 
     def begin(self, sensed: Sensed, phase: float = 0.0) -> GaitState:
         """The memory of a robot that stands as sensed and will start its first gait at `phase`."""
@@ -190,36 +252,32 @@ class Coordinator:
 
     def move(self, state: GaitState, call: SkillCall, sensed: Sensed) -> tuple[MotionTarget, GaitState]:
         """What body, feet and joints should do now, and the memory for the next tick."""
-        robot, gait = self.robot, call.gait
-        # A load below the threshold counts as none.
-        load = sensed.load - CONTACT_THRESHOLD * GRAVITY * robot.total_mass
-        state, *fields = coordinate(
-            robot.arrays,
-            robot.stance,
+        robot = self.robot
+        cycle = self.cycle(call.gait)
+        fields = coordinate(
+            robot.packed,
             robot.height,
-            self.stand,
-            self.reference(gait),
+            robot.stand,
+            CONTACT_THRESHOLD * GRAVITY * robot.total_mass,
+            cycle.table,
+            cycle.clock,
+            cycle.offsets,
             state,
-            (gait.period, gait.duty),
-            np.array(gait.offsets),
             (call.velocity[0], call.velocity[1], call.turn),
             sensed.position_w,
             sensed.orientation_wb,
             sensed.velocity_w,
             sensed.q,
-            load,
+            sensed.load,
             self.dt,
         )
-        return MotionTarget(float(state.phase[0]), *fields, state.command), state
+        state: GaitState = fields[0]
+        return target_of(state, fields[1:]), state
 
-    @property
-    def stand(self) -> float:
-        """Height of the base origin over the foot centres in the nominal stance [m]."""
-        return -float(self.robot.stance[:, 2].mean())
-
-    def reference(self, gait: Gait) -> Float[np.ndarray, "bins 9"]:
-        """The periodic reference of `gait`, worked out at its first use."""
-        table = self.tables.get(gait)
-        if table is None:
-            table = self.tables[gait] = periodic_reference(self.robot, gait)
-        return table
+    def cycle(self, gait: Gait) -> Cycle:
+        """The cycle of `gait`, worked out at its first use."""
+        cycle = self.known.get(gait)
+        if cycle is None:
+            table = periodic_reference(self.robot, gait)
+            cycle = self.known[gait] = Cycle((gait.period, gait.duty), np.array(gait.offsets), table)
+        return cycle

@@ -3,7 +3,6 @@
 import math
 
 from gaitwright.compiled import kernel
-
 from gaitwright.geometry import wrap
 
 POSITION_LEASH = 0.6

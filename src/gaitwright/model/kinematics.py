@@ -9,8 +9,8 @@ import math
 
 import numpy as np
 from jaxtyping import Bool, Float
-from gaitwright.compiled import kernel
 
+from gaitwright.compiled import kernel
 from gaitwright.geometry import add, cross, scale, sub, turn_x, turn_y, vec, wrap
 from gaitwright.model.robot import Robot
 

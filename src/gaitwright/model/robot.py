@@ -13,6 +13,9 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float, Int
 
+from gaitwright.compiled import kernel
+from gaitwright.geometry import GRAVITY
+
 
 class RobotArrays(NamedTuple):
     """The numbers that kernels read, for `legs` legs; the fields are those of `Robot`."""
@@ -30,6 +33,8 @@ class RobotArrays(NamedTuple):
     armature: np.ndarray
     branch: np.ndarray
     tau_max: np.ndarray
+    foot_radius: np.ndarray
+    stance: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -100,6 +105,11 @@ class Robot:
         return float(np.mean(self.foot_radius - self.stance[:, 2]))
 
     @cached_property
+    def stand(self) -> float:
+        """Height of the base origin above the centres of the feet in the nominal stance [m]."""
+        return -float(self.stance[:, 2].mean())
+
+    @cached_property
     def body_length(self) -> float:
         """Distance between the foremost and the rearmost hip [m]: the unit in which goals are reached."""
         return float(np.ptp(self.hip[:, 0]))
@@ -112,7 +122,7 @@ class Robot:
     @cached_property
     def natural_frequency(self) -> float:
         """√(g/h) [1/s]: the robot's clock; all gains and periods scale with it (control.md)."""
-        return float(np.sqrt(9.81 / self.height))
+        return float(np.sqrt(GRAVITY / self.height))
 
     @cached_property
     def arrays(self) -> RobotArrays:
@@ -123,3 +133,41 @@ class Robot:
 
         own = {field: flat(getattr(self, field)) for field in RobotArrays._fields if field != "base_mass"}
         return RobotArrays(base_mass=np.array([self.base_mass]), **own)
+
+    @cached_property
+    def packed(self) -> Float[np.ndarray, "numbers"]:
+        """All of `arrays` in one, the number of legs first: one argument costs a kernel call far less."""
+        return np.concatenate([[float(self.n)], *(field.ravel() for field in self.arrays)])
+
+
+@kernel
+def unpacked(packed):
+    """The `RobotArrays` in a `Robot.packed`, as views."""
+    n = int(packed[0])
+    a = 1 + 1 + 3 + 9
+    b = a + 3 * n
+    c = b + 9 * n
+    d = c + 9 * n
+    e = d + n
+    f = e + 3 * n
+    g = f + 9 * n
+    h = g + 27 * n
+    i = h + 3 * n
+    j = i + 2 * n
+    return RobotArrays(
+        packed[1:2],
+        packed[2:5],
+        packed[5:14].reshape(3, 3),
+        packed[a:b].reshape(n, 3),
+        packed[b:c].reshape(n, 3, 3),
+        packed[c:d].reshape(n, 3, 3),
+        packed[d:e],
+        packed[e:f].reshape(n, 3),
+        packed[f:g].reshape(n, 3, 3),
+        packed[g:h].reshape(n, 3, 3, 3),
+        packed[h:i].reshape(n, 3),
+        packed[i:j].reshape(n, 2),
+        packed[j : j + 3 * n].reshape(n, 3),
+        packed[j + 3 * n : j + 4 * n],
+        packed[j + 4 * n : j + 7 * n].reshape(n, 3),
+    )

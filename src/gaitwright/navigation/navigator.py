@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from gaitwright.model.robot import Robot
 from gaitwright.model.scene import Scene
 from gaitwright.navigation.obstacles import PlanView, plan_view
-from gaitwright.navigation.visibility import length, shortest_path
+from gaitwright.navigation.visibility import Point, length, shortest_path, visible
 from gaitwright.signals import Mission, Route, Sensed
 
 ARRIVED = 0.15
@@ -49,11 +49,16 @@ class Navigator:
             return route
         here, path = place(sensed), route.path
         unit = self.robot.body_length
-        while len(path) > 1 and math.dist(here, path[0]) < PASSED * unit:
+        while len(path) > 1 and self.has_passed(here, path[0], path[1]):
             path = path[1:]
         left = length(here, path)
         arrived = route.arrived or (len(path) == 1 and left < STOP_AT * unit)
         return replace(route, path=path, remaining=left, arrived=arrived)
+
+    def has_passed(self, here: Point, point: Point, onwards: Point) -> bool:
+        """Whether the robot may leave a point of its path behind: near it, and free to go on."""
+        away = math.dist(here, point) / self.robot.body_length
+        return away < STOP_AT or (away < PASSED and bool(visible(self.view, here, [onwards])))
 
     def nowhere(self, mission: Mission, sentence: str) -> Route:
         return Route((), 0.0, mission.speed, mission.driver, no_way=sentence)

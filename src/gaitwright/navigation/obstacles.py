@@ -1,4 +1,4 @@
-"""The plan view that a path must keep clear of: boxes grown by half the robot's width, and the scene's edge."""
+"""What a path keeps clear of, seen from above: boxes grown by the robot's half width, the edge."""
 
 from dataclasses import dataclass
 
@@ -28,6 +28,18 @@ class PlanView:
         place = shapely.Point(point)
         return any(o.contains(place) for o in self.obstacles)
 
+    def corners(self) -> list[tuple[float, float]]:
+        """Corners of the grown obstacles, inner rings too."""
+        rings = [ring for o in self.obstacles for ring in (o.exterior, *o.interiors)]
+        return [(x, y) for ring in rings for x, y in ring.coords[:-1]]
+
+    def nearest_free(self, point: tuple[float, float]) -> tuple[float, float]:
+        """The place nearest to a blocked point that is just clear of the obstacle [m]."""
+        place = shapely.Point(point)
+        around = next(o for o in self.obstacles if o.contains(place)).buffer(1e-3).boundary
+        free = around.interpolate(around.project(place))
+        return free.x, free.y
+
 
 def half_width(robot: Robot) -> float:
     """Room the robot needs to either side of its path [m]: its feet and a clearance."""
@@ -38,7 +50,8 @@ def plan_view(scene: Scene, robot: Robot) -> PlanView:
     """The scene as the planner sees it."""
     margin = half_width(robot)
     grown = (
-        Polygon(box.corners()).buffer(margin, join_style="mitre", mitre_limit=1.5) for box in scene.obstacles(robot)
+        Polygon(box.corners()).buffer(margin, join_style="mitre", mitre_limit=1.5)
+        for box in scene.obstacles(robot)
     )
     merged = shapely.union_all(list(grown))
     parts = getattr(merged, "geoms", [merged])

@@ -15,9 +15,15 @@ Point = tuple[float, float]
 
 
 def shortest_path(view: PlanView, start: Point, goal: Point) -> tuple[Point, ...] | None:
-    """Corner points from `start` (left out) to `goal` (included), or `None` where there is no way."""
-    corners = [p for o in view.obstacles for p in o.exterior.coords[:-1] if view.inside(p)]
-    nodes: list[Point] = [start, goal, *corners]
+    """Corner points from `start` (left out) to `goal` (included), or `None` where there is no way.
+
+    A start too near to an obstacle is left first, by the shortest way.
+    """
+    if view.blocked(start):
+        free = view.nearest_free(start)
+        onwards = shortest_path(view, free, goal)
+        return None if onwards is None else (free, *onwards)
+    nodes = [start, goal, *(p for p in view.corners() if view.inside(p))]
     best = {start: 0.0}
     parent: dict[Point, Point] = {}
     queue = [(math.dist(start, goal), start)]

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import mujoco
 import numpy as np
 
-from gaitwright.geometry import yaw_quaternion
+from gaitwright.geometry import GRAVITY, quaternion_of, upright_rotation
 from gaitwright.model.kinematics import angles
 from gaitwright.model.robot import Robot
 from gaitwright.model.scene import Scene
@@ -37,17 +37,19 @@ class MujocoPlant:
         Varied: joint angles by ±0.05 rad, velocity by ±5 % of √(g h), yaw by ±0.1 rad.
         """
         random = np.random.default_rng(seed)
-        spread = random.uniform(-1.0, 1.0, size=4 + 3 * self.robot.n) if vary else np.zeros(4 + 3 * self.robot.n)
+        spread = (
+            random.uniform(-1.0, 1.0, size=4 + 3 * self.robot.n) if vary else np.zeros(4 + 3 * self.robot.n)
+        )
         mujoco.mj_resetData(self.model, self.data)
         x, y, yaw = self.scene.start
-        orientation = yaw_quaternion(yaw + 0.1 * spread[0])
+        ground = upright_rotation(tuple(np.asarray(self.scene.normal(x, y)).ravel()), yaw + 0.1 * spread[0])
         q, _ = angles(self.robot, self.robot.stance)
-        self.data.qpos[3:7] = orientation
+        self.data.qpos[3:7] = quaternion_of(ground)
         self.data.qpos[7:] = np.clip(
             q + 0.05 * spread[4:].reshape(-1, 3), self.robot.q_min, self.robot.q_max
         ).ravel()
         self.data.qpos[:3] = x, y, self._standing_height(x, y)
-        self.data.qvel[:3] = 0.05 * np.sqrt(9.81 * self.robot.height) * spread[1:4] * (1.0, 1.0, 0.0)
+        self.data.qvel[:3] = 0.05 * np.sqrt(GRAVITY * self.robot.height) * spread[1:4] * (1.0, 1.0, 0.0)
         mujoco.mj_forward(self.model, self.data)
         return self.sense()
 

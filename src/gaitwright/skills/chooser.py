@@ -6,7 +6,16 @@ from dataclasses import dataclass
 from gaitwright.geometry import heading, rotation, wrap
 from gaitwright.model.robot import Robot
 from gaitwright.signals import Route, Sensed, SkillCall
-from gaitwright.skills.library import Skill, check_speed, fastest, find_skill, gait_of, skill_names, speed_scale
+from gaitwright.skills.library import (
+    LIBRARY,
+    Skill,
+    check_speed,
+    fastest,
+    find_skill,
+    gait_of,
+    skill_names,
+    speed_scale,
+)
 
 TURN_FIRST = math.radians(40)
 """Farther off the path than this, the robot turns on the spot before it goes on."""
@@ -19,7 +28,7 @@ BRAKING = 0.6
 
 
 @dataclass(frozen=True)
-class Chooser:
+class PlainChooser:
     """Chooses among the skills of one robot by a few plain rules."""
 
     robot: Robot
@@ -43,17 +52,21 @@ class Chooser:
         return self.call(skill.name, route, forward=slowed * math.cos(error), turn=turn, because=because)
 
     def gait_for(self, route: Route) -> tuple[float, Skill]:
-        """The speed to hold and the slowest skill that can: walk, then trot, then run."""
+        """The speed to hold and the calmest skill for it: walk, trot or run.
+
+        Raises `WrongUse` where the route asks for more than the fastest of them can.
+        """
+        scale = speed_scale(self.robot)
         names = [name for name in ("walk", "trot", "run") if name in skill_names(self.robot.n)]
-        skills = [find_skill(name, self.robot) for name in names]
-        wished = route.speed if route.speed is not None else skills[1].speed * speed_scale(self.robot)
-        for skill in skills:
-            if wished <= skill.speed * speed_scale(self.robot) or wished <= fastest(skill, self.robot) and skill is skills[-1]:
+        walk, *faster = (find_skill(name, self.robot) for name in names)
+        wished = route.speed if route.speed is not None else LIBRARY["trot"].speed * scale
+        if wished <= walk.speed * scale:
+            return wished, walk
+        for skill in faster:
+            if wished <= fastest(skill, self.robot):
                 return wished, skill
-        able = [skill for skill in skills if wished <= fastest(skill, self.robot)]
-        if not able:
-            check_speed(skills[-1], self.robot, wished)
-        return wished, able[0]
+        check_speed(faster[-1], self.robot, wished)
+        return wished, faster[-1]
 
     def turn_rate(self, error: float) -> float:
         """Yaw rate [rad/s] that takes away a heading error [rad], within what the feet can step."""

@@ -108,7 +108,7 @@ def fastest(skill: Skill, robot: Robot) -> float:
 def check_speed(skill: Skill, robot: Robot, speed: float) -> None:
     """`WrongUse` where `speed` [m/s] is beyond what the skill can do on this robot."""
     most = fastest(skill, robot)
-    if speed > most * (1 + 1e-9):
+    if not speed <= most * (1 + 1e-9):
         weight = robot.total_mass * GRAVITY
         raise WrongUse(
             f"{skill.name} at {speed:g} m/s is beyond the reach of {robot.name} ({weight:.0f} N on legs of "

@@ -8,8 +8,8 @@ own link, so that a hinge costs one plane turn.
 import math
 
 import numpy as np
-from gaitwright.compiled import kernel
 
+from gaitwright.compiled import kernel
 from gaitwright.geometry import add, cross, dot, scale, sub, times, times_t, turn_x, turn_y, vec
 
 
