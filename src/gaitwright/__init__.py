@@ -1,0 +1,65 @@
+"""Gaitwright teaches legged robots to move, by rules you can read.
+
+    Mission ─► navigation ─► Route ─► skills ─► SkillCall ─► gait ─► MotionTarget ─► control ─► Torques ─┐
+                    ▲                    ▲                     ▲                         ▲             plant
+                    └────────────────────┴─────── Sensed ──────┴─────────────────────────┴───────────────┘
+
+One frozen value per arrow (`signals`), one folder per stage, one lap in `locomotion.think`. Names are
+loaded when they are first used: importing this package costs milliseconds.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from gaitwright.errors import BadFile as BadFile
+    from gaitwright.errors import GaitwrightError as GaitwrightError
+    from gaitwright.errors import WrongUse as WrongUse
+    from gaitwright.locomotion import Brain as Brain
+    from gaitwright.model.robot import Robot as Robot
+    from gaitwright.model.scene import Scene as Scene
+    from gaitwright.model.scene import load_scene as load_scene
+    from gaitwright.plant.models import load_robot as load_robot
+    from gaitwright.plant.simulation import MujocoPlant as MujocoPlant
+    from gaitwright.recording import Recording as Recording
+    from gaitwright.recording import Report as Report
+    from gaitwright.recording import walk as walk
+    from gaitwright.signals import Gait as Gait
+    from gaitwright.signals import Mission as Mission
+    from gaitwright.signals import MotionTarget as MotionTarget
+    from gaitwright.signals import Route as Route
+    from gaitwright.signals import Sensed as Sensed
+    from gaitwright.signals import SkillCall as SkillCall
+    from gaitwright.signals import Torques as Torques
+
+    __version__: str
+
+_ROOMS = {
+    "errors": ("BadFile", "GaitwrightError", "WrongUse"),
+    "locomotion": ("Brain",),
+    "model.robot": ("Robot",),
+    "model.scene": ("Scene", "load_scene"),
+    "plant.models": ("load_robot",),
+    "plant.simulation": ("MujocoPlant",),
+    "recording": ("Recording", "Report", "walk"),
+    "signals": ("Gait", "Mission", "MotionTarget", "Route", "Sensed", "SkillCall", "Torques"),
+}
+_HOME = {name: f"gaitwright.{room}" for room, names in _ROOMS.items() for name in names}
+
+
+def __getattr__(name: str) -> object:
+    """A public name, fetched from its home at first use."""
+    if name == "__version__":
+        from importlib.metadata import version  # noqa: PLC0415 - costs more than all the rest here
+
+        value = version("gaitwright")
+    elif name in _HOME:
+        value = getattr(import_module(_HOME[name]), name)
+    else:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_HOME, "__version__"})

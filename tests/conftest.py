@@ -1,0 +1,39 @@
+"""What every test shares: seeded numbers, repeatable examples, and shape checks that leave kernels alone."""
+
+import inspect
+import os
+
+import numba
+import numpy as np
+import pytest
+from hypothesis import settings
+
+settings.register_profile("here", deadline=None)  # a first call compiles: no deadline can hold
+settings.register_profile("ci", deadline=None, derandomize=True, print_blob=True)
+settings.load_profile("ci" if os.environ.get("CI") else "here")
+
+
+def _compile_the_function_itself(decorate):
+    """A numba decorator that takes the jaxtyping check off a function again before it compiles it.
+
+    The checks are put inside all other decorators, where they would hand numba a Python wrapper. Without
+    them a kernel is what it is outside the tests, so both share one cache on disk.
+    """
+
+    def decorator(*args, **options):
+        if args and inspect.isfunction(args[0]):
+            return decorate(inspect.unwrap(args[0]), *args[1:], **options)
+        compile_it = decorate(*args, **options)
+        return lambda function: compile_it(inspect.unwrap(function))
+
+    return decorator
+
+
+numba.njit = _compile_the_function_itself(numba.njit)
+numba.cfunc = _compile_the_function_itself(numba.cfunc)
+
+
+@pytest.fixture
+def rng() -> np.random.Generator:
+    """Random numbers that are the same in every run."""
+    return np.random.default_rng(20240229)
