@@ -1,7 +1,7 @@
 """Kernels: functions compiled by numba, kept on disk in a folder that belongs to exactly these sources.
 
 numba checks only the file of the function it loads, not those of the functions it calls, so its own
-cache goes stale when a callee in another file changes. A folder named after all sources cannot.
+cache goes stale when a callee in another file changes. A folder named after all kernel files cannot.
 """
 
 import hashlib
@@ -17,12 +17,13 @@ settings: Any = vars(numba)["config"]  # its names are set at run time
 
 
 def sources_digest() -> str:
-    """A name for the state of the package's sources, from the sizes and times of its files."""
+    """A name for the state of all files that hold kernels, from their names, sizes and times."""
     root = Path(__file__).parent
     digest = hashlib.sha256()
     for path in sorted(root.rglob("*.py")):
-        stat = path.stat()
-        digest.update(f"{path.relative_to(root)} {stat.st_size} {stat.st_mtime_ns}\n".encode())
+        text = path.read_bytes()
+        if b"@kernel" in text:
+            digest.update(f"{path.relative_to(root)} {path.stat().st_mtime_ns} {len(text)}\n".encode())
     return digest.hexdigest()[:16]
 
 

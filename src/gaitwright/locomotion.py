@@ -15,25 +15,15 @@ import numpy as np
 from gaitwright.control.numerical import Method, NumericalController, idle
 from gaitwright.gait.coordinator import Coordinator
 from gaitwright.gait.state import GaitState
-from gaitwright.geometry import GRAVITY, rotation
 from gaitwright.model.robot import Robot
 from gaitwright.model.scene import Scene
 from gaitwright.navigation.navigator import Navigator
 from gaitwright.signals import Mission, MotionTarget, Route, Sensed, SkillCall, Torques
 from gaitwright.skills.chooser import PlainChooser
+from gaitwright.watch import Verdict, Watch
 
 LOOK_EVERY = 0.1
 """The navigator looks at the route this often [s]."""
-TIPPED = math.cos(math.radians(60))
-"""A body whose up axis leans more than 60° from the ground's normal has fallen."""
-SUNK = 0.35
-"""A body lower than this share of its standing height over its feet has fallen."""
-AIRBORNE = 1.5
-"""No foot on the ground for this long, times √(h/g) [s], is a lost contact; flying gaits stay far below."""
-OVERLOADED = 0.2
-"""The force distribution may fail for this long [s]."""
-STUCK = 15.0
-"""A mission without progress for this long, times √(h/0.29 m) [s], has got stuck."""
 
 
 @runtime_checkable
@@ -168,18 +158,27 @@ def trip(
     sensed = plant.reset(seed, vary)
     phase = float(np.random.default_rng([seed, 1]).uniform()) if vary else 0.0
     mind = brain.begin(mission, sensed, phase)
-    watch = Watch(brain, mission, seconds)
-    while True:
-        if not sensed.is_finite():
-            yield halted(brain, mind, sensed)
-            return
-        lap, mind = think(brain, mind, sensed)
-        lap = watch.judge(lap)
-        yield lap
-        if lap.stopped_because:
-            plant.step(idle(brain.robot))
-            return
-        sensed = plant.step(lap.torques)
+    watch = Watch(brain.robot, brain.navigator.view.bounds, seconds)
+    try:
+        while True:
+            if not sensed.is_finite():
+                yield halted(brain, mind, sensed)
+                return
+            lap, mind = think(brain, mind, sensed)
+            verdict = watch.judge(sensed, lap.route, lap.target, lap.torques)
+            if verdict:
+                yield ended(lap, verdict)
+                return
+            yield lap
+            sensed = plant.step(lap.torques)
+    finally:
+        # However the trip ends, also where nobody follows it any more: motors off.
+        plant.step(idle(brain.robot))
+
+
+def ended(lap: Lap, verdict: Verdict) -> Lap:
+    """The last lap of a trip."""
+    return replace(lap, stopped_because=verdict.because, arrived=verdict.arrived, fell=verdict.fell)
 
 
 def halted(brain: Brain, mind: Mind, sensed: Sensed) -> Lap:
@@ -187,82 +186,3 @@ def halted(brain: Brain, mind: Mind, sensed: Sensed) -> Lap:
     target, _ = brain.coordinator.move(mind.gait, mind.call, sensed)
     sentence = f"the sensed state is not a number at {sensed.time:.3f} s: motors stopped"
     return Lap(sensed, mind.route, mind.call, target, idle(brain.robot), (0.0, 0.0), sentence)
-
-
-class Watch:
-    """Decides when a trip is over, and says why in one sentence."""
-
-    def __init__(self, brain: Brain, mission: Mission, seconds: float) -> None:
-        self.brain, self.mission, self.seconds = brain, mission, seconds
-        robot = brain.robot
-        self.stand = robot.stand
-        self.pace = math.sqrt(GRAVITY * robot.height)
-        self.patience = STUCK * math.sqrt(robot.height / 0.29)
-        self.air_limit = AIRBORNE * math.sqrt(robot.height / GRAVITY)
-        self.standing_since = self.grounded_at = self.fed_at = self.progress_at = 0.0
-        self.nearest = math.inf
-
-    def judge(self, lap: Lap) -> Lap:
-        """The lap, marked as the last one where the trip is over."""
-        now = lap.sensed.time
-        if not np.isfinite(lap.torques.tau).all():
-            off = idle(self.brain.robot)
-            return replace(
-                lap, torques=off, stopped_because=f"a torque is not a number at {now:.3f} s: motors stopped"
-            )
-        if fallen := self.fallen(lap):
-            return replace(lap, stopped_because=fallen, fell=True)
-        if fault := self.fault(lap):
-            return replace(lap, stopped_because=fault)
-        if lap.route.no_way:
-            return replace(lap, stopped_because=f"there is no way to the goal: {lap.route.no_way}")
-        if self.stands_at_goal(lap):
-            return replace(lap, stopped_because="arrived at the goal", arrived=True)
-        if now >= self.seconds - 1e-9:
-            return replace(lap, stopped_because=self.out_of_time(lap))
-        return lap
-
-    def fallen(self, lap: Lap) -> str | None:
-        """Why the robot counts as fallen, if it does."""
-        up = rotation(lap.sensed.orientation_wb)[:, 2]
-        lean = float(up @ lap.target.normal_w)
-        now = lap.sensed.time
-        if lean < TIPPED:
-            return f"fell: the body leaned {math.degrees(math.acos(max(-1.0, lean))):.0f}° at {now:.2f} s"
-        over_feet = float(lap.sensed.position_w[2]) - float(np.min(lap.target.feet_w[:, 2]))
-        if over_feet < SUNK * self.stand:
-            return f"fell: the body sank to {over_feet:.2f} m over its feet at {now:.2f} s"
-        return None
-
-    def fault(self, lap: Lap) -> str | None:
-        """A lost contact, an overload or no progress, as a sentence."""
-        now = lap.sensed.time
-        if (lap.sensed.load > 0.0).any():
-            self.grounded_at = now
-        if lap.torques.status.startswith("solved"):
-            self.fed_at = now
-        if now - self.grounded_at > self.air_limit:
-            return f"lost contact: no foot has touched the ground since {self.grounded_at:.2f} s"
-        if now - self.fed_at > OVERLOADED:
-            return f"{lap.torques.status} (since {self.fed_at:.2f} s)"
-        if lap.route.path and not lap.route.arrived:
-            if lap.route.remaining < self.nearest - 0.02 * self.brain.robot.body_length:
-                self.nearest, self.progress_at = lap.route.remaining, now
-            if now - self.progress_at > self.patience:
-                x, y = lap.sensed.position_w[:2]
-                return f"stuck: no progress for {self.patience:.0f} s at ({x:.2f}, {y:.2f})"
-        return None
-
-    def stands_at_goal(self, lap: Lap) -> bool:
-        """Whether the robot has stood still at its goal for a moment."""
-        now = lap.sensed.time
-        speed = float(np.hypot(*lap.sensed.velocity_w[:2]))
-        still = lap.route.arrived and speed < 0.03 * self.pace and bool(lap.target.stance.all())
-        if not (still and self.brain.navigator.at_goal(self.mission, lap.sensed)):
-            self.standing_since = now
-        return now - self.standing_since > 0.3
-
-    def out_of_time(self, lap: Lap) -> str:
-        if not lap.route.path:
-            return f"the {self.seconds:g} s asked for are over"
-        return f"out of time after {self.seconds:g} s, {lap.route.remaining:.2f} m before the goal"

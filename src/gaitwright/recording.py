@@ -17,6 +17,7 @@ from gaitwright.files import whole
 from gaitwright.geometry import GRAVITY
 from gaitwright.locomotion import Brain, Lap, Plant, trip
 from gaitwright.model.robot import Robot
+from gaitwright.plant.models import robot_of
 from gaitwright.signals import Mission
 
 INTERRUPTED = "interrupted"
@@ -136,7 +137,7 @@ class Recording:
         )
 
     def save(self, path: str | Path) -> Path:
-        """Writes the recording as one `.npz` (arrays and a JSON header, no pickle); complete or not at all."""
+        """Writes the recording as one `.npz` (arrays and a JSON header, no pickle), whole or not at all."""
         header = np.frombuffer(json.dumps(self.header()).encode(), dtype=np.uint8)
         arrays = {name: self[name] for name in widths(self.robot.n)}
         with whole(Path(path)) as draft, draft.open("wb") as file:
@@ -146,7 +147,9 @@ class Recording:
     def header(self) -> dict[str, Any]:
         """All but the arrays, as plain JSON values."""
         robot = {field.name: getattr(self.robot, field.name) for field in fields(Robot)}
-        plain = {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in robot.items()}
+        plain = {
+            name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in robot.items()
+        }
         own = {name: getattr(self, name) for name in HEADER}
         return own | {"robot": plain}
 
@@ -266,11 +269,7 @@ def recording_of(arrays: dict[str, np.ndarray]) -> Recording:
     header = json.loads(arrays["header"].tobytes())
     robot = robot_of(header["robot"])
     columns = [arrays[name].reshape(-1, width) for name, width in widths(robot.n).items()]
-    own = {name: tuple(header[name]) if name in ("skills", "drivers") else header[name] for name in HEADER}
+    own: dict[str, Any] = {
+        name: tuple(header[name]) if name in ("skills", "drivers") else header[name] for name in HEADER
+    }
     return Recording(robot=robot, data=np.concatenate(columns, axis=1, dtype=np.float64), **own)
-
-
-def robot_of(plain: dict[str, Any]) -> Robot:
-    """A robot from plain JSON values."""
-    numbers = {name: np.array(value) if isinstance(value, list) else value for name, value in plain.items()}
-    return Robot(**(numbers | {"legs": tuple(plain["legs"])}))

@@ -7,10 +7,20 @@ SI units and radians. `_w`: world axes; `_b`: base axes; quaternions `(w, x, y, 
 `(legs, 3)` in the robot's leg order. Arrays are copies, never views into a simulator.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Bool, Float
+
+from gaitwright.compiled import kernel
+
+
+@kernel
+def are_finite(position, orientation, velocity, spin, q, qd, load):
+    """Whether every number of a sensed state is a number."""
+    vectors = position.sum() + orientation.sum() + velocity.sum() + spin.sum()
+    return math.isfinite(vectors + q.sum() + qd.sum() + load.sum())
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,15 +46,15 @@ class Sensed:
 
     def is_finite(self) -> bool:
         """Whether every number of the state is a number."""
-        total = (
-            self.position_w.sum()
-            + self.orientation_wb.sum()
-            + self.velocity_w.sum()
-            + self.angular_velocity_b.sum()
-            + self.q.sum()
-            + self.qd.sum()
+        return are_finite(
+            self.position_w,
+            self.orientation_wb,
+            self.velocity_w,
+            self.angular_velocity_b,
+            self.q,
+            self.qd,
+            self.load,
         )
-        return bool(np.isfinite(total))
 
 
 @dataclass(frozen=True, slots=True)

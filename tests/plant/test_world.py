@@ -159,10 +159,10 @@ def test_rays_meet_the_scenes_height(scene: Scene) -> None:
     robot = dog()
     model = build_world(robot, scene)
     data = mujoco.MjData(model)
-    data.qpos[:3] = [100.0, 100.0, 50.0]
+    data.qpos[:3] = [150.0, 150.0, 150.0]
     mujoco.mj_kinematics(model, data)
     places = np.random.default_rng(1).uniform(scene.bounds[:2], scene.bounds[2:], (300, 2))
     hit = np.zeros(1, np.int32)
     down = np.array([0.0, 0.0, -1.0])
-    met = [5.0 - mujoco.mj_ray(model, data, np.array([*p, 5.0]), down, None, 1, -1, hit) for p in places]
+    met = [60.0 - mujoco.mj_ray(model, data, np.array([*p, 60.0]), down, None, 1, -1, hit) for p in places]
     np.testing.assert_allclose(met, scene.height(places[:, 0], places[:, 1]), atol=1e-3)

@@ -29,16 +29,26 @@ def _bounds(scale: float) -> Bounds:
     return (-4.0 * scale, -4.0 * scale, 10.0 * scale, 4.0 * scale)
 
 
+def _wide(scale: float) -> Bounds:
+    """200 m × 200 m: ground that costs nothing to extend."""
+    return (-100.0 * scale, -100.0 * scale, 100.0 * scale, 100.0 * scale)
+
+
+def _long(scale: float) -> Bounds:
+    """34 m × 8 m: a minute's walk ahead of the start."""
+    return (-4.0 * scale, -4.0 * scale, 30.0 * scale, 4.0 * scale)
+
+
 def flat(_: float, scale: float, __: np.random.Generator) -> Layout:
-    return Layout(Flat(), (), _bounds(scale))
+    return Layout(Flat(), (), _wide(scale))
 
 
 def slope(degrees: float, scale: float, _: np.random.Generator) -> Layout:
-    return Layout(Slope(math.radians(degrees)), (), _bounds(scale))
+    return Layout(Slope(math.radians(degrees)), (), _wide(scale))
 
 
 def cross_slope(degrees: float, scale: float, _: np.random.Generator) -> Layout:
-    return Layout(Slope(0.0, math.radians(degrees)), (), _bounds(scale))
+    return Layout(Slope(0.0, math.radians(degrees)), (), _wide(scale))
 
 
 # --- rough ---------------------------------------------------------------------------------------
@@ -60,7 +70,7 @@ def smooth_step(t: np.ndarray) -> np.ndarray:
 
 def rough(amplitude: float, scale: float, rng: np.random.Generator) -> Layout:
     """Heights drawn from ±amplitude at every node, joined by smooth steps: never beyond ±amplitude."""
-    bounds = _bounds(scale)
+    bounds = _long(scale)
     x_min, y_min = bounds[0] - RIM * scale, bounds[1] - RIM * scale
     columns = round((bounds[2] + RIM * scale - x_min) / (NODE * scale))
     rows = round((bounds[3] + RIM * scale - y_min) / (NODE * scale))

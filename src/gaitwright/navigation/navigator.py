@@ -52,7 +52,8 @@ class Navigator:
         while len(path) > 1 and self.has_passed(here, path[0], path[1]):
             path = path[1:]
         left = length(here, path)
-        arrived = route.arrived or (len(path) == 1 and left < STOP_AT * unit)
+        near = ARRIVED if route.arrived else STOP_AT
+        arrived = len(path) == 1 and left < near * unit
         return replace(route, path=path, remaining=left, arrived=arrived)
 
     def has_passed(self, here: Point, point: Point, onwards: Point) -> bool:

@@ -19,6 +19,11 @@ class PlanView:
     obstacles: tuple[Polygon, ...]
     field: Polygon
 
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """x_min, y_min, x_max, y_max of the field [m]."""
+        return self.field.bounds
+
     def inside(self, point: tuple[float, float]) -> bool:
         """Whether a point lies in the field."""
         return bool(self.field.contains(shapely.Point(point)))
@@ -34,9 +39,9 @@ class PlanView:
         return [(x, y) for ring in rings for x, y in ring.coords[:-1]]
 
     def nearest_free(self, point: tuple[float, float]) -> tuple[float, float]:
-        """The place nearest to a blocked point that is just clear of the obstacle [m]."""
+        """The place nearest to a blocked point that is just clear of every obstacle [m]."""
         place = shapely.Point(point)
-        around = next(o for o in self.obstacles if o.contains(place)).buffer(1e-3).boundary
+        around = shapely.union_all([o.buffer(1e-3) for o in self.obstacles]).boundary
         free = around.interpolate(around.project(place))
         return free.x, free.y
 

@@ -21,6 +21,8 @@ TURN_FIRST = math.radians(40)
 """Farther off the path than this, the robot turns on the spot before it goes on."""
 KEEP_TURNING = math.radians(15)
 """A turn on the spot goes on until the path is this near."""
+CREEP = 0.1
+"""Slowest approach [m/s], at h = 0.29 m."""
 TURN_GAIN = 2.0
 """Yaw rate per heading error [1/s]."""
 BRAKING = 0.6
@@ -45,28 +47,28 @@ class PlainChooser:
         turning = now is not None and now.skill == "turn"
         if abs(error) > (KEEP_TURNING if turning else TURN_FIRST):
             return self.call("turn", route, turn=turn, because=f"the path is {math.degrees(error):.0f}° off")
-        wished, skill = self.gait_for(route)
-        near = BRAKING / speed_scale(self.robot) * route.remaining
-        slowed = max(0.25 * wished, min(wished, near))
+        scale = speed_scale(self.robot)
+        wished = route.speed if route.speed is not None else LIBRARY["trot"].speed * scale
+        self.gait_for(wished)
+        slowed = min(wished, max(CREEP * scale, BRAKING / scale * route.remaining))
+        skill = self.gait_for(slowed)
         because = f"{route.remaining:.1f} m to go" + (", slowing down" if slowed < wished else "")
         return self.call(skill.name, route, forward=slowed * math.cos(error), turn=turn, because=because)
 
-    def gait_for(self, route: Route) -> tuple[float, Skill]:
-        """The speed to hold and the calmest skill for it: walk, trot or run.
+    def gait_for(self, speed: float) -> Skill:
+        """The calmest skill for a speed [m/s]: walk, trot or run.
 
-        Raises `WrongUse` where the route asks for more than the fastest of them can.
+        Raises `WrongUse` where even the fastest of them cannot go so fast.
         """
-        scale = speed_scale(self.robot)
         names = [name for name in ("walk", "trot", "run") if name in skill_names(self.robot.n)]
         walk, *faster = (find_skill(name, self.robot) for name in names)
-        wished = route.speed if route.speed is not None else LIBRARY["trot"].speed * scale
-        if wished <= walk.speed * scale:
-            return wished, walk
+        if speed <= walk.speed * speed_scale(self.robot):
+            return walk
         for skill in faster:
-            if wished <= fastest(skill, self.robot):
-                return wished, skill
-        check_speed(faster[-1], self.robot, wished)
-        return wished, faster[-1]
+            if speed <= fastest(skill, self.robot):
+                return skill
+        check_speed(faster[-1], self.robot, speed)
+        return faster[-1]
 
     def turn_rate(self, error: float) -> float:
         """Yaw rate [rad/s] that takes away a heading error [rad], within what the feet can step."""

@@ -1,0 +1,148 @@
+"""One simulation from plain values to its figures: what a worker is given, and what it hands back."""
+
+import math
+from dataclasses import asdict, dataclass
+from functools import lru_cache
+from pathlib import Path
+from time import perf_counter, process_time
+from typing import Any
+
+from gaitwright.control.numerical import Method
+from gaitwright.figures import Report
+from gaitwright.geometry import heading, rotation
+from gaitwright.locomotion import Brain, Lap
+from gaitwright.model.robot import Robot
+from gaitwright.model.scene import Scene, load_scene
+from gaitwright.plant.models import load_robot
+from gaitwright.plant.simulation import MujocoPlant
+from gaitwright.recording import INTERRUPTED, walk
+from gaitwright.signals import Mission
+from gaitwright.skills.chooser import fixed_skill
+
+DT = 0.002
+"""Control period [s]: 500 Hz."""
+
+
+@dataclass(frozen=True, slots=True)
+class Push:
+    """A force on the body for a moment, at a chosen phase of the gait."""
+
+    impulse: float
+    """Per mass of the robot [N·s/kg]."""
+    direction: float
+    """From straight ahead, counter-clockwise [°]."""
+    after: float
+    """Earliest time [s]; it begins when the gait next comes to `phase`."""
+    phase: float
+    """Phase of the gait, in [0, 1)."""
+    lasts: float = 0.1
+    """[s]"""
+
+
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """One robot in one scene from one start: a skill held for a time, or a mission where there is a goal."""
+
+    robot: str
+    """Name or file."""
+    scene: str
+    seconds: float
+    seed: int
+    """Varies the start."""
+    skill: str = "trot"
+    speed: float = 0.0
+    """[m/s]"""
+    turn: float = 0.0
+    """[rad/s]"""
+    goal: tuple[float, float] | None = None
+    """[m]"""
+    method: Method = "qp"
+    push: Push | None = None
+
+    @property
+    def name(self) -> str:
+        """The robot's name."""
+        return Path(self.robot).stem
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a trial."""
+
+    kept_up: bool
+    """Whether it went on to its end, without a fall."""
+    off_goal: float
+    """How far from the goal it ended [body lengths]; from its start where there was no goal."""
+    report: Report
+    cpu_s: float
+    wall_s: float
+
+    def plain(self) -> dict[str, Any]:
+        """As plain JSON values, without the times of ticks: workers disturb each other."""
+        report = asdict(self.report)
+        del report["tick_us"]
+        return report | {"kept_up": self.kept_up, "off_goal_body_lengths": self.off_goal, "cpu_s": self.cpu_s}
+
+
+def simulate(trial: Trial) -> Outcome:
+    """Runs one trial; the same trial gives the same outcome in any process."""
+    robot = robot_named(trial.robot)
+    scene = load_scene(trial.scene, trial.seed)
+    brain = brain_for(trial, robot, scene)
+    plant = MujocoPlant(robot, scene, DT)
+    mission = Mission(()) if trial.goal is None else Mission((trial.goal,))
+    pusher = Pusher(plant, trial.push) if trial.push else None
+    cpu, wall = process_time(), perf_counter()
+    recording = walk(brain, plant, mission, trial.seconds, trial.seed, scene=scene.name, watch=pusher)
+    cpu, wall = process_time() - cpu, perf_counter() - wall
+    if recording.stopped_because == INTERRUPTED:
+        raise KeyboardInterrupt
+    where = recording["position_w"][:, :2]
+    target = where[0] if trial.goal is None else trial.goal
+    off = math.dist(where[-1], target) / robot.body_length
+    return Outcome(recording.done and not recording.fell, off, recording.report(), cpu, wall)
+
+
+@lru_cache
+def robot_named(asked: str) -> Robot:
+    """A robot, read once in a process."""
+    return load_robot(asked)
+
+
+def brain_for(trial: Trial, robot: Robot, scene: Scene) -> Brain:
+    """The brain that the trial asks for."""
+    chooser = None
+    if trial.goal is None:
+        chooser = fixed_skill(robot, trial.skill, trial.speed, 0.0, trial.turn, "numerical")
+    return Brain.of(robot, scene, chooser, DT, trial.method)
+
+
+class Pusher:
+    """Pushes the robot once, when its time and the phase of its gait have come; called with every lap."""
+
+    def __init__(self, plant: MujocoPlant, push: Push) -> None:
+        self.plant, self.push = plant, push
+        self.ends: float | None = None
+        self.over = False
+
+    def __call__(self, lap: Lap) -> None:
+        now = lap.sensed.time
+        if self.over:
+            return
+        if self.ends is None:
+            if now >= self.push.after - 1e-9 and self.is_phase(lap):
+                self.begin(lap)
+        elif now >= self.ends - 1e-9:
+            self.plant.push((0.0, 0.0, 0.0))
+            self.over = True
+
+    def is_phase(self, lap: Lap) -> bool:
+        """Whether the gait has come to the push's phase with this lap."""
+        return (lap.target.phase - self.push.phase) % 1.0 < 1.5 * DT / lap.call.gait.period
+
+    def begin(self, lap: Lap) -> None:
+        """The force from now on, turned with the robot's heading."""
+        force = self.push.impulse * self.plant.robot.total_mass / self.push.lasts
+        towards = heading(rotation(lap.sensed.orientation_wb)) + math.radians(self.push.direction)
+        self.plant.push((force * math.cos(towards), force * math.sin(towards), 0.0))
+        self.ends = lap.sensed.time + self.push.lasts

@@ -1,0 +1,208 @@
+"""What `mission`, `skill` and `demo` share: robot and scene by name, the run, its progress, the report."""
+
+import math
+from argparse import Namespace
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from importlib.util import find_spec
+from pathlib import Path
+from time import perf_counter
+
+from gaitwright.cli.console import Simulating, remark, show_pairs, working
+from gaitwright.cli.output import check_folder, check_json, write_json, write_whole
+from gaitwright.compiled import is_warm
+from gaitwright.control.numerical import Method
+from gaitwright.errors import WrongUse
+from gaitwright.locomotion import Brain, Chooser, Lap
+from gaitwright.model.robot import Robot
+from gaitwright.model.scene import Scene, load_scene
+from gaitwright.plant.models import load_robot_and_notes
+from gaitwright.plant.simulation import MujocoPlant
+from gaitwright.recording import INTERRUPTED, Recording, Report, walk
+from gaitwright.signals import Mission
+from gaitwright.skills.library import REFERENCE_HEIGHT
+
+DT = 0.002
+"""Control period [s]."""
+DOG_SIZED = 0.6
+"""Robots up to this height [m] walk in scenes as they are."""
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A robot in a scene, with its brain."""
+
+    brain: Brain
+    scene: Scene
+
+    @property
+    def robot(self) -> Robot:
+        return self.brain.robot
+
+
+# --- before the run --------------------------------------------------------------------------------
+def check_outputs(args: Namespace) -> None:
+    """`WrongUse` where a result could not be written; nothing is made yet."""
+    check_json(args.json)
+    check_folder(args.out)
+
+
+def find_robot(asked: str) -> Robot:
+    """The robot of that name or file; what its file left open is told on the standard error."""
+    with working(f"loading {asked}", worth_a_line=False):
+        robot, notes = load_robot_and_notes(asked)
+    for note in notes:
+        remark(f"{robot.name}: {note}")
+    return robot
+
+
+def find_scene(asked: str, seed: int, robot: Robot, start: list[float] | None = None) -> Scene:
+    """The scene of that name or file, in the robot's size, with `start` (x, y, yaw) where given."""
+    scene = load_scene(asked, seed, scene_scale(robot))
+    if start is None:
+        return scene
+    x, y, yaw = start
+    check_inside("start", (x, y), scene)
+    if abs(yaw) > 2 * math.pi:
+        raise WrongUse(f"the start's yaw is in radians, from -6.28 to 6.28, not {yaw:g}")
+    return replace(scene, start=(x, y, yaw))
+
+
+def scene_scale(robot: Robot) -> float:
+    """What the lengths of a built-in scene are multiplied by for a robot."""
+    return 1.0 if robot.height <= DOG_SIZED else float(round(robot.height / REFERENCE_HEIGHT))
+
+
+def check_inside(what: str, point: tuple[float, float], scene: Scene) -> None:
+    """`WrongUse` for a point outside the scene."""
+    x_min, y_min, x_max, y_max = scene.bounds
+    if not (x_min < point[0] < x_max and y_min < point[1] < y_max):
+        raise WrongUse(
+            f"the {what} ({point[0]:g}, {point[1]:g}) lies outside scene {scene.name}, which goes from "
+            f"({x_min:g}, {y_min:g}) to ({x_max:g}, {y_max:g})"
+        )
+
+
+def set_up(robot: Robot, scene: Scene, chooser: Chooser, distribution: Method) -> Setting:
+    """The brain of a robot in a scene. Raises `WrongUse` where the start is no place to stand."""
+    brain = Brain.of(robot, scene, chooser, DT, distribution)
+    x, y, _ = scene.start
+    if brain.navigator.view.blocked((x, y)):
+        raise WrongUse(
+            f"the start ({x:g}, {y:g}) is on an obstacle of scene {scene.name}, or too near to one"
+        )
+    return Setting(brain, scene)
+
+
+# --- the run ---------------------------------------------------------------------------------------
+def run(
+    setting: Setting,
+    mission: Mission,
+    args: Namespace,
+    on_lap: Callable[[MujocoPlant, Lap], None] | None = None,
+) -> int:
+    """Simulates, reports, leaves the files in `args.out`; returns the exit code."""
+    with working("building the world", worth_a_line=False):
+        plant = MujocoPlant(setting.robot, setting.scene, DT)
+    warm_up(setting, plant, mission)
+    began = perf_counter()
+    with Simulating(args.seconds) as progress:
+
+        def watch(lap: Lap) -> None:
+            progress(lap)
+            if on_lap:
+                on_lap(plant, lap)
+
+        recording = walk(
+            setting.brain, plant, mission, args.seconds, args.seed, scene=setting.scene.name, watch=watch
+        )
+    if not len(recording):
+        raise KeyboardInterrupt
+    return finish(setting, recording, args, perf_counter() - began)
+
+
+def warm_up(setting: Setting, plant: MujocoPlant, mission: Mission) -> None:
+    """Three ticks whose result is thrown away: compiles the kernels, or loads them from numba's cache."""
+    cold = not is_warm()
+    what = "compiling kernels (first run only, up to two minutes)" if cold else "loading compiled kernels"
+    with working(what, worth_a_line=cold):
+        walk(setting.brain, plant, mission, 3 * DT)
+
+
+# --- after the run ---------------------------------------------------------------------------------
+def finish(setting: Setting, recording: Recording, args: Namespace, wall: float) -> int:
+    """Writes and prints the report, leaves the files that were asked for; returns the exit code."""
+    report = recording.report()
+    aside = args.json == "-"
+    kept = keep(recording, report, Path(args.out)) if args.out else []
+    write_json(args.json, report.to_json())
+    title = f"{report.robot} in {report.scene}, seed {report.seed}: {report.stopped_because}"
+    goal = report.arrived or not recording.done
+    show_pairs(title, [*table_of(report, wall, goal), *kept], to_stderr=aside)
+    if report.stopped_because == INTERRUPTED:
+        also = f", and the recording in {args.out}" if args.out else ""
+        remark(f"gaitwright: interrupted after {report.duration_s:.1f} s; kept: the report{also}")
+        return 130
+    if args.out:
+        show_pairs("", illustrate(setting, recording, Path(args.out)), to_stderr=aside)
+    return 0 if recording.done and not recording.fell else 1
+
+
+def table_of(report: Report, wall: float, goal: bool) -> list[tuple[str, str]]:
+    """The report for people; `wall` is how long the run took [s], `goal` whether there was one."""
+    drivers = ", ".join(f"{name} {share:.0%}" for name, share in report.driver_share.items())
+    pace = f"{report.duration_s / wall:.1f} × real time" if wall > 0 else ""
+    ticks = "; ".join(
+        f"{name} {t['median']:.0f} µs, p99 {t['p99']:.0f} µs" for name, t in report.tick_us.items()
+    )
+    degrees = math.degrees
+    arrived = [("arrived", "yes" if report.arrived else "no")] if goal else []
+    return [
+        ("driver", drivers),
+        *arrived,
+        ("falls", str(report.falls)),
+        ("time", f"{report.duration_s:.2f} s"),
+        ("distance", f"{report.distance_m:.2f} m"),
+        ("mean speed", f"{report.speed_mean_mps:.3f} m/s"),
+        (
+            "velocity error",
+            f"{report.velocity_error_mps:.4f} m/s, yaw rate {report.yaw_rate_error_radps:.4f} rad/s",
+        ),
+        ("cost of transport", f"{report.cost_of_transport:.2f}"),
+        ("roll, pitch (std)", f"{degrees(report.roll_std_rad):.2f}°, {degrees(report.pitch_std_rad):.2f}°"),
+        ("skills", " → ".join(report.skills)),
+        ("desirability", f"{report.desirability:.3f}"),
+        ("tick", ticks),
+        ("simulated in", f"{wall:.1f} s, {pace}"),
+    ]
+
+
+def keep(recording: Recording, report: Report, folder: Path) -> list[tuple[str, str]]:
+    """Leaves recording and report in a folder; what each is, and where."""
+    write_whole(folder / "report.json", report.to_json() + "\n")
+    saved = recording.save(folder / "recording.npz")
+    return [("report", str(folder / "report.json")), ("recording", str(saved))]
+
+
+def illustrate(setting: Setting, recording: Recording, folder: Path) -> list[tuple[str, str]]:
+    """Leaves the recording for other programs and a picture in a folder, as far as the extras are there."""
+    files = []
+    if has("mcap_ros2", "the recording for Foxglove and Rerun (.mcap)", "record"):
+        with working("writing the recording for Foxglove and Rerun", worth_a_line=False):
+            from gaitwright.mcap_export import export_mcap  # noqa: PLC0415 - an extra
+
+            files.append(("for Foxglove, Rerun", str(export_mcap(recording, folder / "recording.mcap"))))
+    if has("matplotlib", "the picture", "plot"):
+        with working("drawing the picture", worth_a_line=False):
+            from gaitwright.pictures import trip_picture  # noqa: PLC0415 - an extra, and slow to import
+
+            files.append(("picture", str(trip_picture(recording, setting.scene, folder / "trip.png"))))
+    return files
+
+
+def has(module: str, what: str, extra: str) -> bool:
+    """Whether an extra is installed; says how to get it where it is not."""
+    if find_spec(module):
+        return True
+    remark(f"{what} is left out: it needs `pip install 'gaitwright[{extra}]'`")
+    return False

@@ -1,0 +1,74 @@
+"""What the words after an option mean: text → value, or one sentence about what is wrong with it."""
+
+import argparse
+import math
+import re
+
+from gaitwright.errors import WrongUse, unknown
+
+DRIVERS = {"numerical": "solves the robot's dynamics at every tick"}
+"""Who can compute the torques now."""
+LATER = ("programmed", "kinematic", "learned", "hybrid")
+"""Drivers that will exist."""
+LONGEST = 3600.0
+"""Longest time to simulate in one go [s]; a recording takes 0.5 MB of memory per second."""
+
+
+def finite(text: str) -> float:
+    """A number that is neither infinite nor not one."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"{text.strip()!r} is not a finite number")
+    return value
+
+
+def positive(text: str) -> float:
+    value = finite(text)
+    if value <= 0.0:
+        raise argparse.ArgumentTypeError(f"{text.strip()} is not greater than 0")
+    return value
+
+
+def duration(text: str) -> float:
+    value = positive(text)
+    if value > LONGEST:
+        raise argparse.ArgumentTypeError(f"{text.strip()} s is longer than the limit of {LONGEST:g} s")
+    return value
+
+
+def seed(text: str) -> int:
+    if not re.fullmatch(r"\d{1,18}", text):
+        raise argparse.ArgumentTypeError(f"{text.strip()!r} is not a whole number from 0 to 10^18")
+    return int(text)
+
+
+def point(text: str) -> tuple[float, float]:
+    parts = text.split(",")
+    if len(parts) != 2:
+        raise argparse.ArgumentTypeError(
+            f"{text.strip()!r} is not a point; write X,Y without a space, e.g. 2,-1.5"
+        )
+    return finite(parts[0]), finite(parts[1])
+
+
+def driver(text: str) -> str:
+    if text in LATER:
+        raise WrongUse(f"driver {text!r} does not exist yet; there is: {', '.join(DRIVERS)}")
+    if text not in DRIVERS:
+        raise unknown("driver", text, DRIVERS)
+    return text
+
+
+def skillbook(text: str) -> str:
+    raise WrongUse(
+        f"nothing reads the skillbook {text!r} yet; there is driver: {', '.join(DRIVERS)}, which needs none"
+    )
+
+
+def distribution(text: str) -> str:
+    if text not in ("qp", "lp"):
+        raise unknown("distribution", text, ("qp", "lp"))
+    return text

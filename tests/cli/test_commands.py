@@ -1,0 +1,248 @@
+"""The commands at work: exit codes, what they print, what they write, what they refuse."""
+
+import json
+import stat
+import sys
+from pathlib import Path
+
+import pytest
+
+from gaitwright import bench
+from gaitwright.cli import console, main, trips
+from gaitwright.locomotion import Lap
+from gaitwright.recording import load
+
+KEYS = {
+    "arrived", "falls", "duration_s", "distance_m", "speed_mean_mps", "velocity_error_mps",
+    "yaw_rate_error_radps", "cost_of_transport", "roll_std_rad", "pitch_std_rad", "driver_share", "tick_us",
+    "skills", "desirability", "stopped_because", "seed", "state_hash",
+}  # fmt: skip
+"""What the JSON of a report carries at least (design.md §6)."""
+MISSION = ["mission", "--goal", "6", "0"]
+SKILL = ["skill", "--seconds", "0.4"]
+
+
+@pytest.fixture(autouse=True)
+def in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def reported(words: list[str], capsys: pytest.CaptureFixture[str], code: int = 0) -> dict:
+    """What a command reports on its standard output."""
+    assert main([*words, "--json", "-"]) == code
+    return json.loads(capsys.readouterr().out)
+
+
+# --- skill -----------------------------------------------------------------------------------------
+def test_skill_reports_every_figure(capsys: pytest.CaptureFixture[str]):
+    report = reported(SKILL, capsys)
+    assert report.keys() >= KEYS
+    assert report["skills"] == ["trot"]
+    assert report["driver_share"] == {"numerical": 1.0}
+    assert report["stopped_because"] == "the 0.4 s asked for are over"
+
+
+def test_the_same_seed_gives_the_same_report_but_for_the_clock(capsys: pytest.CaptureFixture[str]):
+    first, again, other = (reported([*SKILL, "--seed", seed], capsys) for seed in "112")
+    assert other["state_hash"] != first["state_hash"]
+    assert first.pop("tick_us").keys() == again.pop("tick_us").keys() == {"lap", "numerical"}
+    assert first == again
+
+
+def test_a_push_to_the_left_moves_the_robot_to_the_left(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(trips, "illustrate", lambda *_: [])
+    for name, direction in (("left", "90"), ("right", "-90")):
+        words = ["skill", "--seconds", "1", "--push", "0.5", direction, "--out", name]
+        assert main(words) == 0
+    left, right = (load(f"{name}/recording.npz")["velocity_w"][:, 1] for name in ("left", "right"))
+    assert (left[:251] == right[:251]).all()  # nothing before half of the time
+    assert left[310] - right[310] > 0.4
+
+
+def test_a_push_that_topples_the_robot_is_exit_code_1(capsys: pytest.CaptureFixture[str]):
+    report = reported(["skill", "--seconds", "3", "--push", "4", "90"], capsys, code=1)
+    assert report["falls"] == 1
+    assert report["stopped_because"].startswith("fell")
+
+
+def test_both_force_distributions_walk(capsys: pytest.CaptureFixture[str]):
+    qp, lp = (reported([*SKILL, "--distribution", method], capsys) for method in ("qp", "lp"))
+    assert qp["state_hash"] != lp["state_hash"]
+
+
+# --- mission ---------------------------------------------------------------------------------------
+def test_a_mission_arrives(capsys: pytest.CaptureFixture[str]):
+    words = ["mission", "--scene", "flat", "--goal", "0.3", "0", "--seed", "1"]
+    report = reported(words, capsys)
+    assert report["arrived"]
+    assert report["stopped_because"] == "arrived at the goal"
+
+
+def test_a_mission_out_of_time_is_exit_code_1(capsys: pytest.CaptureFixture[str]):
+    report = reported([*MISSION, "--seconds", "0.4"], capsys, code=1)
+    assert report["stopped_because"].startswith("out of time after 0.4 s")
+
+
+def test_a_goal_in_an_obstacle_is_reported_not_refused(capsys: pytest.CaptureFixture[str]):
+    report = reported(["mission", "--goal", "2.9", "-0.1"], capsys, code=1)
+    assert report["stopped_because"].startswith("there is no way to the goal")
+
+
+def test_a_mission_starts_where_it_is_told(capsys: pytest.CaptureFixture[str]):
+    words = ["mission", "--scene", "flat", "--start", "3", "1", "1.57", "--goal", "3", "1.02"]
+    report = reported(words, capsys)
+    assert report["arrived"]
+    assert report["distance_m"] < 0.3
+
+
+# --- what is refused -------------------------------------------------------------------------------
+WRONG = [
+    (
+        ["mission", "--goal", "60", "0"],
+        2,
+        "the goal (60, 0) lies outside scene blocks, which goes from (-4, -4)",
+    ),
+    (["mission", "--waypoints", "0,9", "1,0"], 2, "the way-point (0, 9) lies outside scene blocks"),
+    ([*MISSION, "--start", "-9", "0", "0"], 2, "the start (-9, 0) lies outside scene blocks"),
+    ([*MISSION, "--start", "3", "0", "0"], 2, "the start (3, 0) is on an obstacle of scene blocks"),
+    ([*MISSION, "--start", "0", "0", "90"], 2, "yaw is in radians"),
+    ([*MISSION, "--speed", "9"], 2, "at 9 m/s is beyond the reach of go2"),
+    ([*MISSION, "--robot", "go3"], 2, "no robot 'go3'; there is: go2"),
+    ([*MISSION, "--robot", "nowhere.xml"], 3, "nowhere.xml: no such file"),
+    ([*MISSION, "--scene", "blok"], 2, "did you mean 'blocks'?"),
+    ([*MISSION, "--scene", "nowhere.json"], 3, "nowhere.json cannot be read"),
+    (["skill", "--skill", "trott"], 2, "no skill 'trott'; there is: stand, walk, trot"),
+    (["skill", "--speed", "3"], 2, "trot at 3 m/s is beyond the reach of go2"),
+    (["skill", "--speed", "-3"], 2, "beyond the reach of go2"),
+    (["skill", "--lateral", "3"], 2, "beyond the reach of go2"),
+    (["skill", "--turn", "99"], 2, "trot at a yaw rate of 99 rad/s is beyond the reach of go2"),
+    (["skill", "--push", "-1", "0"], 2, "the impulse of a push is not negative"),
+    ([*SKILL, "--json", "nowhere/a.json"], 2, "there is no folder"),
+    ([*SKILL, "--json", "."], 2, "is a folder; name a file in it"),
+]
+
+
+@pytest.mark.parametrize(("words", "code", "sentence"), WRONG, ids=lambda value: str(value)[:40])
+def test_wrong_use_is_one_sentence_and_leaves_nothing(
+    words: list[str], code: int, sentence: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    assert main([*words, "--out", "run"]) == code
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert sentence in err
+    assert err.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_with_files_in_it_is_left_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    (tmp_path / "run").mkdir()
+    (tmp_path / "run" / "mine.txt").write_text("mine")
+    assert main([*SKILL, "--out", "run"]) == 2
+    assert "--out run holds files already" in capsys.readouterr().err
+
+
+# --- files -----------------------------------------------------------------------------------------
+def test_a_run_leaves_picture_recordings_and_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    assert main([*SKILL, "--json", "a.json", "--out", "run"]) == 0
+    names = {path.name for path in (tmp_path / "run").iterdir()}
+    assert names == {"trip.png", "recording.npz", "recording.mcap", "report.json"}
+    assert (tmp_path / "a.json").read_text() == (tmp_path / "run" / "report.json").read_text()
+    shown = capsys.readouterr().out
+    assert [name for name in names if f"run/{name}" not in shown] == []
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.json", "run"]
+
+
+def test_json_replaces_the_file_a_link_points_to(tmp_path: Path):
+    (tmp_path / "real.json").write_text("old")
+    (tmp_path / "link.json").symlink_to("real.json")
+    assert main(["scenes", "--json", "link.json"]) == 0
+    assert (tmp_path / "link.json").is_symlink()
+    assert json.loads((tmp_path / "real.json").read_text())[0]["name"] == "flat"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no such device")
+def test_json_to_a_device_leaves_the_device():
+    assert main(["scenes", "--json", "/dev/null"]) == 0
+    assert stat.S_ISCHR(Path("/dev/null").stat().st_mode)
+
+
+def test_runs_are_numbered_not_overwritten(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr("gaitwright.cli.demo.SECONDS", 0.2)
+    monkeypatch.setattr(trips, "illustrate", lambda *_: [])
+    assert [main(["demo"]), main(["demo"])] == [1, 1]  # nobody crosses the field in that time
+    assert sorted(path.name for path in (tmp_path / "runs").iterdir()) == ["demo-001", "demo-002"]
+
+
+def test_a_missing_extra_is_a_line_not_a_failure(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+):
+    monkeypatch.setattr(trips, "find_spec", lambda module: None)
+    assert main([*SKILL, "--out", "run"]) == 0
+    assert {path.name for path in (tmp_path / "run").iterdir()} == {"recording.npz", "report.json"}
+    assert "the picture is left out: it needs `pip install 'gaitwright[plot]'`" in capsys.readouterr().err
+
+
+# --- interrupts, pipes, defects --------------------------------------------------------------------
+def test_ctrl_c_keeps_the_report_and_the_recording(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+):
+    def press(self: console.Simulating, lap: Lap) -> None:
+        if lap.sensed.time > 0.2:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(console.Simulating, "__call__", press)
+    assert main(["skill", "--json", "-", "--out", "run"]) == 130
+    out, err = capsys.readouterr()
+    assert json.loads(out)["stopped_because"] == "interrupted"
+    assert "interrupted after 0.2 s; kept: the report, and the recording in run" in err
+    assert (tmp_path / "run" / "recording.npz").is_file()
+
+
+def test_our_own_mistakes_show_where_they_are(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+):
+    monkeypatch.setattr("gaitwright.cli.scenes.OFFERS", None)
+    assert main(["scenes"]) == 70
+    err = capsys.readouterr().err
+    assert "Traceback" in err
+    assert "please report it" in err
+
+
+# --- what there is ---------------------------------------------------------------------------------
+def test_robots_scenes_and_skills_are_listed(capsys: pytest.CaptureFixture[str]):
+    assert {row["name"] for row in reported(["robots"], capsys)} >= {"go2", "thesis", "hexapod"}
+    assert {row["name"] for row in reported(["scenes"], capsys)} >= {"flat", "blocks", "rough"}
+    skills = reported(["skills", "--robot", "hexapod"], capsys)
+    assert [row["name"] for row in skills["skills"]] == ["stand", "walk", "trot", "turn"]
+    assert main(["robots"]) == main(["scenes"]) == main(["skills"]) == 0
+    assert "Unitree Go2" in capsys.readouterr().out
+
+
+def test_tall_robots_get_taller_scenes():
+    thesis, dog = trips.find_robot("thesis"), trips.find_robot("go2")
+    assert trips.find_scene("blocks", 0, dog).bounds[2] == 10.0
+    assert trips.find_scene("blocks", 0, thesis).bounds[2] == 90.0
+
+
+def test_the_doctor_finds_everything_here(capsys: pytest.CaptureFixture[str]):
+    report = reported(["doctor"], capsys)
+    assert report["fine"]
+    assert main(["doctor"]) == 0
+    assert "everything is there" in capsys.readouterr().out
+
+
+def test_the_doctor_names_the_command_that_mends(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+):
+    monkeypatch.setattr("gaitwright.cli.doctor.CORE", ("numpy", "no-such-package"))
+    assert main(["doctor"]) == 1
+    out = capsys.readouterr().out
+    assert "MISSING no-such-package" in out
+    assert "-m pip install" in out
+
+
+def test_bench_is_passed_on(monkeypatch: pytest.MonkeyPatch):
+    asked = []
+    monkeypatch.setattr(bench, "run", lambda *words: asked.append(words) or 0, raising=False)
+    assert main(["bench", "tick", "--quick", "--json", "-"]) == 0
+    assert asked == [(["tick"], True, "-")]

@@ -1,0 +1,119 @@
+"""The navigator passes way-points in order, says where it has come to, and why there is no way."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from shapely import Point, Polygon
+
+from gaitwright.model.scene import Scene
+from gaitwright.model.terrain import Box, Flat
+from gaitwright.navigation.navigator import ARRIVED, PASSED, STOP_AT, Navigator
+from gaitwright.signals import Mission, Sensed
+from robots_by_hand import dog
+
+DOG = dog()
+UNIT = DOG.body_length
+BOUNDS = (-4.0, -4.0, 10.0, 4.0)
+places = st.tuples(st.floats(-3.9, 9.9), st.floats(-3.9, 3.9))
+
+
+def among(*boxes: Box) -> Navigator:
+    return Navigator.of(DOG, Scene("test", Flat(), boxes, BOUNDS))
+
+
+def at(x: float, y: float) -> Sensed:
+    still, joints = np.zeros(3), np.zeros((4, 3))
+    return Sensed(
+        1.0, np.array([x, y, 0.29]), np.array([1.0, 0, 0, 0]), still, still, joints, joints, np.ones(4)
+    )
+
+
+@given(places, st.lists(places, min_size=1, max_size=4))
+def test_a_free_field_is_crossed_from_way_point_to_way_point(start, points) -> None:
+    assume(all(math.dist(a, b) > 1e-6 for a, b in zip([start, *points], points, strict=False)))
+    route = among().set_out(Mission(tuple(points), 0.3, "numerical"), at(*start))
+    assert route.path == tuple(points) and route.no_way is None and not route.arrived
+    length = sum(math.dist(a, b) for a, b in zip([start, *points], points, strict=False))
+    assert route.remaining == pytest.approx(length)
+    assert (route.speed, route.driver) == (0.3, "numerical")
+
+
+def test_a_mission_without_way_points_has_nowhere_to_go() -> None:
+    route = among().set_out(Mission(()), at(0.0, 0.0))
+    assert route.path == () and route.no_way is None
+    assert among().plan(route, at(3.0, 0.0)) == route
+
+
+def test_following_the_path_drops_its_points_and_ends_arrived() -> None:
+    block = Box(3.0, 0.1, 0.0, 1.0, 1.0, 1.0)
+    navigator, here = among(block), np.zeros(2)
+    route = navigator.set_out(Mission(((6.0, 0.0), (6.0, 2.0))), at(*here))
+    assert len(route.path) == 4
+    left = [route.remaining]
+    while not route.arrived and len(left) < 2000:
+        way = np.array(route.path[0]) - here
+        here = here + 0.02 * way / max(np.linalg.norm(way), 0.02)
+        route = navigator.plan(route, at(*here))
+        left.append(route.remaining)
+    assert route.arrived and len(route.path) == 1
+    assert navigator.at_goal(Mission(((6.0, 2.0),)), at(*here))
+    # Cutting a corner within PASSED may only shorten what is left.
+    assert (np.diff(left) <= 1e-9).all()
+
+
+@pytest.mark.parametrize("goal", [(6.0, 0.0), (3.7, 0.3), (3.8, -0.3)])
+def test_on_its_way_around_a_box_the_feet_keep_clear_of_it(goal) -> None:
+    """Corners are dropped before they are reached: what is cut off must stay within the clearance."""
+    block = Box(3.0, 0.1, 0.4, 0.6, 1.6, 1.0)
+    navigator, here, box = among(block), np.zeros(2), Polygon(block.corners())
+    route, nearest = navigator.set_out(Mission((goal,)), at(*here)), math.inf
+    assert len(route.path) > 1
+    while not route.arrived:
+        way = np.array(route.path[0]) - here
+        here = here + 0.02 * way / max(np.linalg.norm(way), 0.02)
+        route = navigator.plan(route, at(*here))
+        nearest = min(nearest, box.distance(Point(here)))
+    assert nearest >= np.abs(DOG.stance[:, 1]).max()
+
+
+def test_once_arrived_it_stays_arrived_until_it_is_pushed_off_the_goal() -> None:
+    navigator = among()
+    route = navigator.plan(
+        navigator.set_out(Mission(((1.0, 0.0),)), at(0.0, 0.0)), at(1.0, 0.5 * STOP_AT * UNIT)
+    )
+    assert route.arrived
+    assert navigator.plan(route, at(1.0, 0.9 * ARRIVED * UNIT)).arrived
+    assert not navigator.plan(route, at(1.0, 1.1 * ARRIVED * UNIT)).arrived
+
+
+@given(st.floats(0.0, 3.0), st.floats(-math.pi, math.pi))
+def test_the_goal_counts_within_its_radius_and_no_farther(away: float, angle: float) -> None:
+    assume(abs(away - ARRIVED) > 1e-6 and abs(away - STOP_AT) > 1e-6)
+    navigator, mission = among(), Mission(((1.0, 0.0),))
+    here = at(1.0 + away * UNIT * math.cos(angle), away * UNIT * math.sin(angle))
+    assert navigator.at_goal(mission, here) == (away < ARRIVED)
+    assert navigator.plan(navigator.set_out(mission, at(0.0, 0.0)), here).arrived == (away < STOP_AT)
+
+
+def test_a_way_point_is_passed_near_enough_and_the_last_one_never() -> None:
+    navigator = among()
+    route = navigator.set_out(Mission(((1.0, 0.0), (2.0, 0.0))), at(0.0, 0.0))
+    assert len(navigator.plan(route, at(1.0 - 1.01 * PASSED * UNIT, 0.0)).path) == 2
+    assert navigator.plan(route, at(1.0 - 0.99 * PASSED * UNIT, 0.0)).path == ((2.0, 0.0),)
+    assert navigator.plan(route, at(2.0, 0.0)).path == ((1.0, 0.0), (2.0, 0.0)), "the order is kept"
+
+
+@pytest.mark.parametrize(
+    ("goal", "boxes", "sentence"),
+    [
+        ((20.0, 0.0), (), "(20, 0) lies outside the scene"),
+        ((3.0, 0.0), (Box(3.0, 0.0, 0.0, 1.0, 1.0, 1.0),), "on (3, 0) stands an obstacle"),
+        ((6.0, 0.0), (Box(3.0, 0.0, 0.0, 0.2, 9.0, 1.0),), "to (6, 0) leads no way"),
+    ],
+)
+def test_where_there_is_no_way_it_says_why(goal, boxes, sentence: str) -> None:
+    route = among(*boxes).set_out(Mission(((1.0, 0.0), goal)), at(0.0, 0.0))
+    assert (route.no_way, route.path) == (sentence, ())
