@@ -14,7 +14,7 @@ import numpy as np
 
 from gaitwright.control.numerical import Method, NumericalController, idle
 from gaitwright.gait.coordinator import Coordinator
-from gaitwright.gait.state import GaitState
+from gaitwright.gait.state import GaitMemory
 from gaitwright.model.robot import Robot
 from gaitwright.model.scene import Scene
 from gaitwright.navigation.navigator import Navigator
@@ -97,7 +97,7 @@ class Mind:
     mission: Mission
     route: Route
     call: SkillCall
-    gait: GaitState
+    gait: GaitMemory
     torques: Torques | None = None
     looked_at: float = -math.inf
     """When the navigator last looked [s]."""

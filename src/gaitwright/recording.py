@@ -175,8 +175,14 @@ class Recorder:
         if self.count == len(self.rows):
             self.rows = np.concatenate([self.rows, np.empty_like(self.rows)])
         s, t, u = lap.sensed, lap.target, lap.torques
-        row, at = self.rows[self.count], 0
-        for value in (
+        numbers = (
+            self.skills.setdefault(lap.call.skill, len(self.skills)),
+            self.drivers.setdefault(lap.call.driver, len(self.drivers)),
+            lap.call.gait.period,
+            *lap.took,
+        )
+        # In the order of `widths`.
+        pieces = (
             (s.time,),
             s.position_w,
             s.orientation_wb,
@@ -191,15 +197,9 @@ class Recorder:
             (u.residual, t.phase),
             t.command,
             t.position_w,
-            (
-                self.skills.setdefault(lap.call.skill, len(self.skills)),
-                self.drivers.setdefault(lap.call.driver, len(self.drivers)),
-                lap.call.gait.period,
-                *lap.took,
-            ),
-        ):
-            row[at : at + len(value)] = value
-            at += len(value)
+            numbers,
+        )
+        np.concatenate(pieces, out=self.rows[self.count])
         self.count += 1
         self.last = lap
 

@@ -21,7 +21,7 @@ from gaitwright.control.demand import (
 )
 from gaitwright.control.numerical import NumericalController, idle
 from gaitwright.geometry import GRAVITY, rotation, rotation_vector
-from gaitwright.model.kinematics import angles
+from gaitwright.model.kinematics import angles, feet
 from gaitwright.model.robot import Robot
 from gaitwright.model.scene import load_scene
 from gaitwright.plant.simulation import MujocoPlant
@@ -59,7 +59,7 @@ def moving(robot: Robot, rng: np.random.Generator) -> Sensed:
 
 def hold(robot: Robot, sensed: Sensed, stance: np.ndarray | None = None) -> MotionTarget:
     """Stay as you are, on the feet in `stance` (all, where not given)."""
-    still, feet = np.zeros(3), np.zeros((robot.n, 3))
+    still, legs = np.zeros(3), np.zeros((robot.n, 3))
     down = np.ones(robot.n, dtype=bool) if stance is None else stance
     return MotionTarget(
         phase=0.0,
@@ -72,9 +72,9 @@ def hold(robot: Robot, sensed: Sensed, stance: np.ndarray | None = None) -> Moti
         rotation_wb=rotation(sensed.orientation_wb),
         angular_velocity_w=still,
         angular_acceleration_w=still,
-        feet_w=feet,
-        feet_velocity_w=feet,
-        feet_acceleration_w=feet,
+        feet_w=legs,
+        feet_velocity_w=legs,
+        feet_acceleration_w=legs,
         q=sensed.q,
         command=still,
     )
@@ -164,6 +164,16 @@ def swing_accelerations(robot: Robot, target: MotionTarget, s: Sensed, model, da
         target.feet_velocity_w - rates
     )
     return target.feet_acceleration_w + back
+
+
+@NAMES
+def test_feet_touch_the_ground_a_radius_below_their_centres(name: str, rng: np.random.Generator) -> None:
+    robot = robot_called(name)
+    s, slope = moving(robot, rng), rng.uniform(-0.3, 0.3, 2)
+    normal = np.array([*slope, 1.0]) / np.sqrt(1.0 + slope @ slope)
+    load = demanded(robot, replace(hold(robot, s), normal_w=normal), s)
+    centres = feet(robot, s.q) @ rotation(s.orientation_wb).T
+    np.testing.assert_allclose(load.arm, centres - robot.foot_radius[:, None] * normal, atol=1e-12)
 
 
 @NAMES

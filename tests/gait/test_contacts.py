@@ -17,7 +17,7 @@ from gaitwright.gait.contacts import (
     shares,
     swing_time,
 )
-from gaitwright.gait.state import SEARCH, STANCE, SWING, GaitState, standing
+from gaitwright.gait.state import SEARCH, STANCE, SWING, GaitState, packed, standing, state_of
 from gaitwright.signals import Gait
 from gaitwright.skills.library import LIBRARY, gait_of
 from oracles import robot_called
@@ -49,6 +49,15 @@ def tick(
 
 def leg_phases(gait: Gait, phase: float) -> np.ndarray:
     return (phase + np.array(gait.offsets)) % 1.0
+
+
+@given(seeds, st.sampled_from([4, 6, 8]))
+def test_a_packed_memory_is_unpacked_whole(seed: int, legs: int) -> None:
+    rng = np.random.default_rng(seed)
+    blank = standing(np.zeros((legs, 3)), np.zeros(3), 0.0, 0.0)
+    state = GaitState(*(rng.normal(size=field.shape) for field in blank))
+    for field, same in zip(state, state_of(packed(state)), strict=True):
+        np.testing.assert_array_equal(field, same)
 
 
 # --- modes ---------------------------------------------------------------------------------------

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from gaitwright.gait.coordinator import Coordinator
 from gaitwright.gait.posture import POSITION_LEASH, SLEW, TURN_SLEW, YAW_LEASH
-from gaitwright.gait.state import GaitState
+from gaitwright.gait.state import GaitMemory, state_of
 from gaitwright.geometry import GRAVITY, heading, quaternion_of, rotation, wrap, yaw_quaternion
 from gaitwright.model.kinematics import angles, feet
 from gaitwright.model.robot import Robot
@@ -50,7 +50,7 @@ def story(rng: np.random.Generator, ticks: int, robot: Robot = DOG) -> list[Sens
 
 def follow(
     sensed: list[Sensed], call: SkillCall, phase: float, robot: Robot = DOG
-) -> list[tuple[MotionTarget, GaitState]]:
+) -> list[tuple[MotionTarget, GaitMemory]]:
     """Targets and memories, tick by tick."""
     coordinator = COORDINATOR if robot is DOG else Coordinator(robot, DT)
     state, out = coordinator.begin(sensed[0], phase), []
@@ -60,7 +60,7 @@ def follow(
     return out
 
 
-def numbers(told: list[tuple[MotionTarget, GaitState]]) -> dict[str, np.ndarray]:
+def numbers(told: list[tuple[MotionTarget, GaitMemory]]) -> dict[str, np.ndarray]:
     """All targets, field by field; the first axis is time."""
     fields = MotionTarget.__dataclass_fields__
     return {name: np.array([getattr(target, name) for target, _ in told], dtype=float) for name in fields}
@@ -78,12 +78,12 @@ def test_what_is_handed_in_is_left_as_it_was(seed: int, skill: str) -> None:
     sensed = story(np.random.default_rng(seed), 40)
     state = COORDINATOR.begin(sensed[0], 0.3)
     for now in sensed:
-        before = [field.tobytes() for field in state]
+        before = state.tobytes()
         seen = [np.array(getattr(now, name)).tobytes() for name in Sensed.__dataclass_fields__]
         _, new = COORDINATOR.move(state, call_of(skill), now)
-        assert [field.tobytes() for field in state] == before
+        assert state.tobytes() == before
         assert [np.array(getattr(now, name)).tobytes() for name in Sensed.__dataclass_fields__] == seen
-        assert not any(np.shares_memory(old, young) for old in state for young in new)
+        assert not np.shares_memory(state, new)
         state = new
 
 
@@ -119,7 +119,7 @@ def test_the_phase_goes_on_by_a_tick_or_waits(seed: int, skill: str, phase: floa
             assert gone == 0.0
         else:
             assert gone == pytest.approx(step, abs=1e-12) or gone == 0.0
-        assert 0.0 <= target.phase < 1.0 and target.phase == state.phase[0]
+        assert 0.0 <= target.phase < 1.0 and target.phase == state[0]
         before = target.phase
 
 
@@ -131,7 +131,7 @@ def test_with_feet_that_land_a_little_early_a_cycle_takes_its_period(skill: str)
     state = COORDINATOR.begin(sensed, 0.2)
     ticks = round(3 * gait.period / DT)
     for _ in range(ticks):
-        due = (state.phase[0] + 0.03 + np.array(gait.offsets)) % 1.0 < gait.duty
+        due = (state[0] + 0.03 + np.array(gait.offsets)) % 1.0 < gait.duty
         target, state = COORDINATOR.move(state, call, replace(sensed, load=40.0 * due))
     gone = 0.0 if gait.duty == 1.0 else ticks * DT / gait.period
     assert (target.phase - 0.2 - gone + 0.5) % 1.0 == pytest.approx(0.5, abs=1e-9)
@@ -271,6 +271,6 @@ def test_the_wanted_place_runs_ahead_only_as_far_as_its_leash(seed: int, turn: f
     told = story(np.random.default_rng(seed), 1)[0]
     yaw = heading(rotation(told.orientation_wb))
     for _, state in follow([told] * 600, call_of("walk", (2.0, 0.5), turn), 0.0):
-        away = np.hypot(*(state.anchor[:2] - told.position_w[:2]))
+        away = np.hypot(*(state_of(state).anchor[:2] - told.position_w[:2]))
         assert away <= POSITION_LEASH * DOG.height * (1 + 1e-9)
-        assert abs(wrap(state.anchor[2] - yaw)) <= YAW_LEASH + 1e-9
+        assert abs(wrap(state_of(state).anchor[2] - yaw)) <= YAW_LEASH + 1e-9

@@ -7,7 +7,7 @@ import numpy as np
 
 from gaitwright.bench.trial import Trial, brain_for, robot_named
 from gaitwright.control.forces import FRICTION
-from gaitwright.gait.state import GaitState
+from gaitwright.gait.state import GaitMemory
 from gaitwright.geometry import quaternion_of
 from gaitwright.locomotion import Brain, Lap, Mind, think
 from gaitwright.model.scene import load_scene
@@ -23,7 +23,7 @@ SETTLES = 1000
 class Moment:
     """What a tick starts from, and the target it led to."""
 
-    gait: GaitState
+    gait: GaitMemory
     call: SkillCall
     sensed: Sensed
     previous: Torques | None

@@ -27,25 +27,20 @@ class NumericalController:
     def torques(self, target: MotionTarget, sensed: Sensed, previous: Torques | None = None) -> Torques:
         """Joint torques [N·m] for this tick; `previous` smooths the foot forces."""
         robot, stance, normal = self.robot, target.stance, target.normal_w
-        load = self.load(target, sensed)
         weight, height, limits = robot.total_mass * GRAVITY, robot.height, robot.tau_max
         before = np.zeros((robot.n, 3)) if previous is None else previous.forces_w
+        load = self.load(target, sensed)
         task = (load, stance, target.share, normal, before, limits, weight, height)
-        x, status = self.shared(task, sensed, int(np.count_nonzero(stance)))
-        tau, forces, unmet = conclude(load, stance, normal, x, limits, weight, height)
-        return Torques(tau, forces, unmet, status)
-
-    def shared(self, task: tuple, sensed: Sensed, feet: int) -> tuple[Float[np.ndarray, "n"], str]:
-        """How the feet that are down share the load, and whether they can; if not, they share it evenly."""
-        if not feet:
-            return np.zeros(0), "solved"
         if self.method == "qp":
             x, status = solve_qp(*quadratic_program(*task))
         else:
             x, status = solve_lp(*linear_program(*task, sensed.qd))
         if not status.startswith("solved"):
+            # Better than nothing: the feet that are down share the weight evenly.
+            feet = int(np.count_nonzero(stance))
             x = np.tile((0.0, 0.0, 1.0 / feet), feet)
-        return x, status
+        tau, forces, unmet = conclude(load, stance, normal, x, limits, weight, height)
+        return Torques(tau, forces, unmet, status)
 
     def load(self, target: MotionTarget, sensed: Sensed) -> Float[np.ndarray, "numbers"]:
         """What the target asks of feet and motors: a packed `control.demand.Load`."""

@@ -28,8 +28,10 @@ def solve_qp(
     """Minimises ½xᵀHx + gᵀx; the first k − m bounds are on x itself, the others on `rows @ x`.
 
     No hessian makes it a linear program.
-    Returns x and a status sentence, `"solved"` where it is.
+    Without unknowns there is nothing to solve. Returns x and a status sentence, `"solved"` where it is.
     """
+    if not gradient.size:
+        return gradient, "solved"
     x, _, code, _ = daqp.solve(hessian, gradient, rows, upper, lower, np.zeros(upper.size, dtype=np.int32))
     return x, EXIT_SENTENCES.get(code, f"the solver stopped with code {code}")
 

@@ -12,7 +12,7 @@ from gaitwright.gait.contacts import advance_legs, is_lifting, is_missing, share
 from gaitwright.gait.ground import advance_ground, plane_height, plane_normal
 from gaitwright.gait.posture import advance_anchor, sample, slew
 from gaitwright.gait.reference import periodic_reference
-from gaitwright.gait.state import SEARCH, STANCE, SWING, GaitState, standing
+from gaitwright.gait.state import SEARCH, STANCE, SWING, GaitMemory, packed, standing, state_of
 from gaitwright.gait.swing import hip_over_ground, search_reference, swing_reference, touchdown
 from gaitwright.geometry import (
     GRAVITY,
@@ -53,22 +53,6 @@ def feet_in_base(rotation_wb, position, feet_w):
         p = times_t(rotation_wb, sub(vec(feet_w[leg]), position))
         out[leg, 0], out[leg, 1], out[leg, 2] = p
     return out
-
-
-@kernel
-def copied(state):
-    return GaitState(
-        state.phase.copy(),
-        state.command.copy(),
-        state.anchor.copy(),
-        state.slope.copy(),
-        state.mode.copy(),
-        state.progress.copy(),
-        state.age.copy(),
-        state.unfelt.copy(),
-        state.origin.copy(),
-        state.contact.copy(),
-    )
 
 
 @kernel
@@ -118,7 +102,7 @@ def feet_reference(model, state, clock, rotation_d, position, velocity, wanted, 
 
 @kernel
 def coordinate(
-    packed,
+    numbers,
     height,
     stand,
     threshold,
@@ -134,14 +118,16 @@ def coordinate(
     load,
     dt,
 ):
-    """One tick of joint coordination: the new memory and the fields of a `MotionTarget`.
+    """One tick of joint coordination: the new memory and what a `MotionTarget` is made of.
 
-    `packed`: the robot; `height`, `stand`: of its base over ground and foot centres; `threshold`: load of a
-    foot in contact [N]; `clock`: (period, duty); `old`: the memory; `asked`: forward, left, yaw rate.
+    `numbers`: the packed robot; `height`, `stand`: of its base over ground and foot centres; `threshold`:
+    load of a foot in contact [N]; `clock`: (period, duty); `old`: the memory; `asked`: forward, left,
+    yaw rate.
     """
-    model = unpacked(packed)
+    model = unpacked(numbers)
     period, duty = clock
-    state = copied(old)
+    memory = old.copy()
+    state, was = state_of(memory), old[0]
     rotation_wb = rotation(orientation)
     at, v = vec(position), vec(velocity)
     feet_w = feet_in_world(model, rotation_wb, at, q)
@@ -150,7 +136,7 @@ def coordinate(
     missing = is_missing(state, phase, step, duty, offsets)
     if not (missing and is_lifting(state, phase, step, duty, offsets)):
         phase = (phase + step) % 1.0
-    advance_legs(state, old.phase[0], phase, period, duty, offsets, load > threshold, feet_w, dt)
+    advance_legs(state, was, phase, period, duty, offsets, load > threshold, feet_w, dt)
     state.phase[0] = phase
     advance_ground(state.slope, state.contact, at, v, 0.5 * period, dt)
     slew(state.command, asked, asked[2], GRAVITY, height, dt)
@@ -173,22 +159,10 @@ def coordinate(
         feet_in_base(rotation_d, base_p, feet),
     )
     share = shares(state, phase, period, duty, offsets, missing)
-    return (
-        state,
-        state.mode == STANCE,
-        share,
-        np.array(normal),
-        np.array(base_p),
-        np.array(base_v),
-        np.array(base_a),
-        rotation_d,
-        np.array(spin),
-        np.array(spin_rate),
-        feet,
-        feet_v,
-        feet_a,
-        angles,
-    )
+    body = np.array((normal, base_p, base_v, base_a, spin, spin_rate))
+    legs = np.empty((4, *feet.shape))
+    legs[0], legs[1], legs[2], legs[3] = feet, feet_v, feet_a, angles
+    return memory, state.mode == STANCE, share, body, rotation_d, legs
 
 
 @kernel
@@ -200,28 +174,6 @@ def pitched(matrix, angle):
         out[i, 0] = c * matrix[i, 0] - s * matrix[i, 2]
         out[i, 2] = s * matrix[i, 0] + c * matrix[i, 2]
     return out
-
-
-def target_of(state: GaitState, fields: tuple[np.ndarray, ...]) -> MotionTarget:
-    """The target in what `coordinate` returns after the memory."""
-    stance, share, normal, at, v, a, attitude, spin, spin_rate, feet, feet_v, feet_a, q = fields
-    return MotionTarget(
-        phase=float(state.phase[0]),
-        stance=stance,
-        share=share,
-        normal_w=normal,
-        position_w=at,
-        velocity_w=v,
-        acceleration_w=a,
-        rotation_wb=attitude,
-        angular_velocity_w=spin,
-        angular_acceleration_w=spin_rate,
-        feet_w=feet,
-        feet_velocity_w=feet_v,
-        feet_acceleration_w=feet_a,
-        q=q,
-        command=state.command,
-    )
 
 
 class Cycle(NamedTuple):
@@ -244,17 +196,17 @@ class Coordinator:
     known: dict[Gait, Cycle] = field(default_factory=dict)
     """Cycles worked out so far, by gait."""
 
-    def begin(self, sensed: Sensed, phase: float = 0.0) -> GaitState:
+    def begin(self, sensed: Sensed, phase: float = 0.0) -> GaitMemory:
         """The memory of a robot that stands as sensed and will start its first gait at `phase`."""
         turn = rotation(sensed.orientation_wb)
         feet = feet_in_world(self.robot.arrays, turn, tuple(sensed.position_w), sensed.q)
-        return standing(feet, sensed.position_w, heading(turn), phase)
+        return packed(standing(feet, sensed.position_w, heading(turn), phase))
 
-    def move(self, state: GaitState, call: SkillCall, sensed: Sensed) -> tuple[MotionTarget, GaitState]:
+    def move(self, memory: GaitMemory, call: SkillCall, sensed: Sensed) -> tuple[MotionTarget, GaitMemory]:
         """What body, feet and joints should do now, and the memory for the next tick."""
         robot = self.robot
         cycle = self.cycle(call.gait)
-        fields = coordinate(
+        memory, stance, share, body, attitude, legs = coordinate(
             robot.packed,
             robot.height,
             robot.stand,
@@ -262,7 +214,7 @@ class Coordinator:
             cycle.table,
             cycle.clock,
             cycle.offsets,
-            state,
+            memory,
             (call.velocity[0], call.velocity[1], call.turn),
             sensed.position_w,
             sensed.orientation_wb,
@@ -271,8 +223,26 @@ class Coordinator:
             sensed.load,
             self.dt,
         )
-        state: GaitState = fields[0]
-        return target_of(state, fields[1:]), state
+        normal, at, velocity, acceleration, spin, spin_rate = body
+        feet, feet_velocity, feet_acceleration, angles = legs
+        target = MotionTarget(
+            phase=float(memory[0]),
+            stance=stance,
+            share=share,
+            normal_w=normal,
+            position_w=at,
+            velocity_w=velocity,
+            acceleration_w=acceleration,
+            rotation_wb=attitude,
+            angular_velocity_w=spin,
+            angular_acceleration_w=spin_rate,
+            feet_w=feet,
+            feet_velocity_w=feet_velocity,
+            feet_acceleration_w=feet_acceleration,
+            q=angles,
+            command=memory[1:4],
+        )
+        return target, memory
 
     def cycle(self, gait: Gait) -> Cycle:
         """The cycle of `gait`, worked out at its first use."""

@@ -3,9 +3,16 @@
 from typing import NamedTuple
 
 import numpy as np
+from jaxtyping import Float
+
+from gaitwright.compiled import kernel
 
 STANCE, SWING, SEARCH = 0, 1, 2
 """Modes of a leg: carrying load, on its way, or late and being lowered until it touches."""
+
+
+GaitMemory = Float[np.ndarray, "numbers"]
+"""A `GaitState` packed in one array, as it is handed from tick to tick."""
 
 
 class GaitState(NamedTuple):
@@ -48,4 +55,28 @@ def standing(feet_w: np.ndarray, position_w: np.ndarray, yaw: float, phase: floa
         unfelt=np.zeros(n),
         origin=feet_w.copy(),
         contact=feet_w.copy(),
+    )
+
+
+def packed(state: GaitState) -> GaitMemory:
+    """The state in one array, field after field."""
+    return np.concatenate([field.ravel().astype(float) for field in state])
+
+
+@kernel
+def state_of(memory):
+    """The `GaitState` in a packed memory, as views."""
+    n = (memory.size - 10) // 10
+    legs = memory[10:]
+    return GaitState(
+        memory[:1],
+        memory[1:4],
+        memory[4:7],
+        memory[7:10],
+        legs[:n],
+        legs[n : 2 * n],
+        legs[2 * n : 3 * n],
+        legs[3 * n : 4 * n],
+        legs[4 * n : 7 * n].reshape(n, 3),
+        legs[7 * n : 10 * n].reshape(n, 3),
     )

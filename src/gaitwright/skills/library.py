@@ -82,14 +82,15 @@ def gait_of(skill: Skill, robot: Robot) -> Gait:
 def relative_phases(pattern: str, legs: int) -> tuple[float, ...]:
     """Phases of `legs` legs in the order front to rear, left first.
 
-    Beyond four legs, pairs alternate (tripods) and the walk is a ripple from rear to front.
+    Beyond four legs, pairs alternate (tripods), and the walk is a ripple: along each side the
+    lift-offs run from rear to front, evenly over the cycle.
     """
     if legs == 4 or pattern == "together":
         return PATTERNS[pattern][:1] * legs if pattern == "together" else PATTERNS[pattern]
     pairs = legs // 2
     if pattern == "diagonal":
         return tuple(0.5 * ((i // 2 + i % 2) % 2) for i in range(legs))
-    return tuple(((pairs - 1 - i // 2) / pairs + 0.5 * (i % 2)) % 1.0 for i in range(legs))
+    return tuple(((i // 2 + 1) / pairs + 0.5 * (i % 2)) % 1.0 for i in range(legs))
 
 
 def speed_scale(robot: Robot) -> float:
