@@ -6,11 +6,12 @@ from functools import cache
 import mujoco
 import numpy as np
 
+from gaitwright.bench.oracles import hinge_model
 from gaitwright.geometry import GRAVITY, rotation
 from gaitwright.model.robot import Robot
 from gaitwright.model.scene import load_scene
 from gaitwright.plant.models import load_robot
-from gaitwright.plant.world import JOINTS, build_world
+from gaitwright.plant.world import build_world
 from robots_by_hand import dog, insect
 
 BY_HAND = {"dog": dog, "insect": insect}
@@ -138,32 +139,11 @@ def mujoco_foot_accelerations(robot: Robot, model: mujoco.MjModel, data: mujoco.
 
 
 # --- Pinocchio -----------------------------------------------------------------------------------
-def pinocchio_model(robot: Robot):
-    """The robot as a Pinocchio model, joint by joint; needs `pinocchio`."""
-    import pinocchio as pin
-
-    model = pin.Model()
-    model.gravity.linear = np.array([0.0, 0.0, -GRAVITY])
-    base = model.addJoint(0, pin.JointModelFreeFlyer(), pin.SE3.Identity(), "base")
-    trunk = pin.Inertia(robot.base_mass, robot.base_com, robot.base_inertia)
-    model.appendBodyToJoint(base, trunk, pin.SE3.Identity())
-    for k, leg in enumerate(robot.legs):
-        parent, place = base, pin.SE3(robot.leg_frame[k], robot.hip[k])
-        for i, axis in enumerate(([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, robot.sign[k], 0.0])):
-            hinge = pin.JointModelRevoluteUnaligned(np.array(axis))
-            parent = model.addJoint(parent, hinge, place, f"{leg}_{JOINTS[i]}")
-            link = pin.Inertia(robot.mass[k, i], robot.com[k, i], robot.inertia[k, i])
-            model.appendBodyToJoint(parent, link, pin.SE3.Identity())
-            place = pin.SE3(np.eye(3), robot.offset[k, i])
-    model.armature[6:] = robot.armature.ravel()
-    return model
-
-
 def pinocchio_inverse(robot: Robot, s: State) -> tuple[np.ndarray, np.ndarray]:
     """The same as `mujoco_inverse`, by Pinocchio, which counts a free body's motion in its own axes."""
     import pinocchio as pin
 
-    model = pinocchio_model(robot)
+    model = hinge_model(robot)
     R = rotation(s.orientation_wb)
     w = s.angular_velocity_b
     v = R.T @ s.velocity_w

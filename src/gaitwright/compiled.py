@@ -43,3 +43,8 @@ if not settings.CACHE_DIR:
 
 kernel: Callable[[Callable[..., Any]], Callable[..., Any]] = njit(cache=True, error_model="numpy")
 """Marks a function as a kernel: plain arithmetic on arrays and tuples, compiled at its first call."""
+
+kernel_nogil: Callable[[Callable[..., Any]], Callable[..., Any]] = njit(
+    cache=True, error_model="numpy", nogil=True
+)
+"""The same for long work: it lets go of Python's lock, so that threads run it side by side."""

@@ -139,12 +139,12 @@ def heading(matrix):
 
 @kernel
 def upright_rotation(normal, yaw):
-    """Rotation `(3, 3)` whose z axis is the unit `normal` and whose x axis points along `yaw`.
+    """Rotation `(3, 3)` whose z axis is the unit `normal`, which points up, and whose yaw is `yaw`.
 
-    The x axis is the projection of the horizontal direction onto the plane (equations.md §2).
+    The x axis lies in the plane, straight above or below the horizontal direction (equations.md §2).
     """
     forward = (math.cos(yaw), math.sin(yaw), 0.0)
-    x = sub(forward, scale(dot(forward, normal), normal))
+    x = (forward[0], forward[1], -dot(forward, normal) / normal[2])
     x = scale(1.0 / math.sqrt(dot(x, x)), x)
     y = cross(normal, x)
     out = np.empty((3, 3))
@@ -161,12 +161,29 @@ def wrap(angle):
 
 # --- for people, not kernels ---------------------------------------------------------------------
 def quaternion_of(matrix: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "4"]:
-    """Unit quaternion `(w, x, y, z)`, w ≥ 0, of a rotation matrix."""
-    x, y, z = rotation_vector(np.ascontiguousarray(matrix))
-    angle = math.sqrt(x * x + y * y + z * z)
-    half = 0.5 * angle
-    k = math.sin(half) / angle if angle > 1e-12 else 0.5
-    return np.array([math.cos(half), k * x, k * y, k * z])
+    """Unit quaternion `(w, x, y, z)`, w ≥ 0, of a rotation matrix.
+
+    From its largest component (Shepperd 1978), so that it is exact for every turn.
+    """
+    # Squares of the components, times four, less one: the trace belongs to w.
+    squares = np.array([np.trace(matrix), *(2.0 * np.diag(matrix) - np.trace(matrix))])
+    largest = int(squares.argmax())
+    sums = matrix + matrix.T
+    products = np.array(
+        [
+            [
+                1.0 + squares[0],
+                matrix[2, 1] - matrix[1, 2],
+                matrix[0, 2] - matrix[2, 0],
+                matrix[1, 0] - matrix[0, 1],
+            ],
+            [matrix[2, 1] - matrix[1, 2], 1.0 + squares[1], sums[0, 1], sums[0, 2]],
+            [matrix[0, 2] - matrix[2, 0], sums[0, 1], 1.0 + squares[2], sums[1, 2]],
+            [matrix[1, 0] - matrix[0, 1], sums[0, 2], sums[1, 2], 1.0 + squares[3]],
+        ]
+    )
+    q = products[largest] / np.linalg.norm(products[largest])
+    return q if q[0] >= 0.0 else -q
 
 
 def yaw_quaternion(yaw: float) -> Float[np.ndarray, "4"]:
@@ -175,14 +192,15 @@ def yaw_quaternion(yaw: float) -> Float[np.ndarray, "4"]:
 
 
 def roll_pitch_yaw(matrix: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3"]:
-    """Roll, pitch, yaw [rad] (3-2-1, equations.md §1) of a rotation matrix `R_wb`."""
-    return np.array(
-        [
-            math.atan2(matrix[2, 1], matrix[2, 2]),
-            math.asin(max(-1.0, min(1.0, -matrix[2, 0]))),
-            math.atan2(matrix[1, 0], matrix[0, 0]),
-        ]
-    )
+    """Roll, pitch, yaw [rad] (3-2-1, equations.md §1) of a rotation matrix `R_wb`.
+
+    At a pitch of ±90°, where only their difference is known, the yaw is 0.
+    """
+    level = math.hypot(matrix[0, 0], matrix[1, 0])
+    pitch = math.atan2(-matrix[2, 0], level)
+    if level < 1e-9:
+        return np.array([math.atan2(-matrix[1, 2], matrix[1, 1]), pitch, 0.0])
+    return np.array([math.atan2(matrix[2, 1], matrix[2, 2]), pitch, math.atan2(matrix[1, 0], matrix[0, 0])])
 
 
 FROM_THESIS = np.diag([1.0, -1.0, -1.0])

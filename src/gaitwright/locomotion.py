@@ -158,7 +158,7 @@ def trip(
     sensed = plant.reset(seed, vary)
     phase = float(np.random.default_rng([seed, 1]).uniform()) if vary else 0.0
     mind = brain.begin(mission, sensed, phase)
-    watch = Watch(brain.robot, brain.navigator.view.bounds, seconds)
+    watch = Watch(brain.robot, brain.navigator.view.bounds, seconds, sensed.time)
     try:
         while True:
             if not sensed.is_finite():

@@ -156,3 +156,5 @@ class Torques:
     """Part of the wanted wrench that the feet cannot give, as a share of the weight."""
     status: str = "solved"
     """`solved`, or why not, as a sentence."""
+    prices: Float[np.ndarray, "legs limits"] | None = None
+    """What each limit of each foot costs (`control.forces`, in words by `control.certificate`)."""

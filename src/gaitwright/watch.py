@@ -7,6 +7,7 @@ from gaitwright.compiled import kernel
 from gaitwright.geometry import GRAVITY
 from gaitwright.model.robot import Robot
 from gaitwright.signals import MotionTarget, Route, Sensed, Torques
+from gaitwright.skills.library import REFERENCE_HEIGHT
 
 TIPPED = math.cos(math.radians(60))
 """A body whose up axis leans more than 60° from the ground's normal has fallen."""
@@ -56,14 +57,23 @@ def vital_signs(orientation, position, velocity, normal, feet_w, load, stance, t
 
 
 class Watch:
-    """Follows one trip of a robot in a scene with `bounds` (x_min, y_min, x_max, y_max) [m]."""
+    """Follows one trip of a robot in a scene with `bounds` (x_min, y_min, x_max, y_max) [m].
 
-    def __init__(self, robot: Robot, bounds: tuple[float, float, float, float], seconds: float) -> None:
-        self.robot, self.bounds, self.seconds = robot, bounds, seconds
+    The trip begins at time `begins` and may last `seconds`.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        bounds: tuple[float, float, float, float],
+        seconds: float,
+        begins: float = 0.0,
+    ) -> None:
+        self.robot, self.bounds, self.seconds, self.ends = robot, bounds, seconds, begins + seconds
         self.pace = math.sqrt(GRAVITY * robot.height)
-        self.patience = STUCK * math.sqrt(robot.height / 0.29)
+        self.patience = STUCK * math.sqrt(robot.height / REFERENCE_HEIGHT)
         self.air_limit = AIRBORNE / robot.natural_frequency
-        self.standing_since = self.grounded_at = self.fed_at = self.progress_at = 0.0
+        self.standing_since = self.grounded_at = self.fed_at = self.progress_at = begins
         self.nearest = math.inf
 
     def judge(self, sensed: Sensed, route: Route, target: MotionTarget, torques: Torques) -> Verdict | None:
@@ -95,7 +105,7 @@ class Watch:
             self.standing_since = now
         if now - self.standing_since > REST:
             return Verdict("arrived at the goal", arrived=True)
-        return self.out_of_time(route) if now >= self.seconds - 1e-9 else None
+        return self.out_of_time(route) if now >= self.ends - 1e-9 else None
 
     def fallen(self, now: float, lean: float, over_feet: float) -> Verdict | None:
         """A body that leans too far or lies too low."""

@@ -8,15 +8,17 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
+from gaitwright.errors import WrongUse
 from gaitwright.geometry import rotation, wrap
 from gaitwright.model.catalogue import robot_names
 from gaitwright.model.kinematics import (
-    REACH_SENTENCES,
+    BRANCHES,
     REACHED,
     TOO_FAR,
     TOO_NEAR_AXIS,
     TOO_NEAR_HIP,
     angles,
+    branches,
     feet,
     foot_in_leg,
     leg_angles,
@@ -24,9 +26,9 @@ from gaitwright.model.kinematics import (
     to_base,
     to_leg,
 )
-from oracles import robot_called
+from gaitwright.model.reach import BEYOND_LIMIT, poses, reach
+from oracles import robot_called, unlike
 
-BRANCHES = list(itertools.product((1, -1), repeat=2))
 CLEAR = 0.05
 """Sine of the angle by which the drawn legs stay clear of poses where branches meet."""
 
@@ -51,7 +53,7 @@ def yaw_leg(draw) -> np.ndarray:
 
 
 legs = st.one_of(abduction_leg(), yaw_leg())
-poses = st.tuples(angle, angle, angle).map(np.array)
+postures = st.tuples(angle, angle, angle).map(np.array)
 
 
 def clear_of_singular(q: np.ndarray, offset: np.ndarray, third: float) -> bool:
@@ -63,7 +65,7 @@ def clear_of_singular(q: np.ndarray, offset: np.ndarray, third: float) -> bool:
     return knee > CLEAR and down > CLEAR and np.linalg.norm(c1) > CLEAR
 
 
-@given(legs, poses, sign)
+@given(legs, postures, sign)
 def test_every_branch_brings_the_foot_back(offset: np.ndarray, q: np.ndarray, third: float) -> None:
     foot = foot_in_leg(q, offset, third)
     assume(clear_of_singular(q, offset, third))
@@ -79,7 +81,7 @@ def test_every_branch_brings_the_foot_back(offset: np.ndarray, q: np.ndarray, th
     assert min(errors) < 1e-12, "one branch is the pose that the foot came from"
 
 
-@given(legs, poses, sign)
+@given(legs, postures, sign)
 def test_branches_are_told_apart_by_side_and_bend(offset: np.ndarray, q: np.ndarray, third: float) -> None:
     foot = foot_in_leg(q, offset, third)
     assume(clear_of_singular(q, offset, third))
@@ -96,7 +98,7 @@ def test_branches_are_told_apart_by_side_and_bend(offset: np.ndarray, q: np.ndar
         assert side * (below[1] @ foot) > 0.0, "side is the sign of the foot's place along the plane's z axis"
 
 
-@given(legs, poses, sign)
+@given(legs, postures, sign)
 @example(np.array([(0, 0.1, 0), (0, 0, -0.2), (0, 0, -0.2)]), np.zeros(3), 1.0)
 def test_the_jacobian_is_the_derivative(offset: np.ndarray, q: np.ndarray, third: float) -> None:
     foot, *columns = leg_points_and_jacobian(q, offset, third)
@@ -152,13 +154,21 @@ def test_a_foot_on_the_axis_says_which_limit_it_breaks() -> None:
     offset = np.array([(0, 0.1, 0), (0, 0, -0.2), (0, 0, -0.2)])
     q, code = leg_angles((0.2, 0.0, 0.05), offset, 1.0, -1, -1)
     assert code == TOO_NEAR_AXIS
-    assert "lateral offset" in REACH_SENTENCES[code]
     assert np.isfinite(q).all()
 
 
-def test_every_code_has_its_own_sentence() -> None:
-    assert sorted(REACH_SENTENCES) == sorted({REACHED, TOO_NEAR_AXIS, TOO_FAR, TOO_NEAR_HIP})
-    assert len(set(REACH_SENTENCES.values())) == 4
+@given(abduction_leg(), sign, angle, angle, st.booleans())
+def test_the_stretched_and_the_folded_leg_still_reach(offset, third, hip1, hip2, stretched) -> None:
+    """A foot at the edge of the reach is reached, whichever way its last digit is rounded."""
+    thigh, shank = np.arctan2(offset[1:, 0], offset[1:, 2])
+    knee = third * (thigh - shank + (0.0 if stretched else math.pi))
+    foot = foot_in_leg(np.array([hip1, hip2, knee]), offset, third)
+    assume(abs(lengths(offset)[0] - lengths(offset)[1]) > 0.01)
+    solved = [leg_angles(foot, offset, third, *branch) for branch in BRANCHES]
+    reached = [foot_in_leg(np.array(q), offset, third) for q, code in solved if code == REACHED]
+    assert reached
+    for back in reached:
+        np.testing.assert_allclose(back, foot, rtol=0, atol=1e-11)
 
 
 # --- whole robots --------------------------------------------------------------------------------
@@ -178,6 +188,102 @@ def test_feet_that_cannot_be_reached_are_told_leg_by_leg(name: str) -> None:
     q, reached = angles(robot, wanted)
     assert reached.tolist() == [leg != 1 for leg in range(robot.n)]
     assert np.isfinite(q).all()
+
+
+@given(st.sampled_from(["dog", "insect"]), st.integers(0, 2**32 - 1))
+def test_all_postures_of_a_robot_nobody_has_seen_bring_its_feet_home(name: str, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    robot = unlike(robot_called(name), rng)
+    q = rng.uniform(-math.pi, math.pi, (robot.n, 3))
+    places = feet(robot, q)
+    for i, leg in enumerate(robot.legs):
+        assume(clear_of_singular(q[i], robot.offset[i], robot.sign[i]))
+        found = branches(robot, leg, places[i])
+        home = [np.where(np.arange(robot.n)[:, None] == i, posture, q) for posture in found.values()]
+        for posture in home:
+            np.testing.assert_allclose(feet(robot, posture), places, rtol=0, atol=1e-12)
+        wrapped = [np.arctan2(np.sin(p - q), np.cos(p - q)) for p in home]
+        assert min(np.abs(w).max() for w in wrapped) < 1e-11, "one of them is where we came from"
+
+
+def test_all_four_postures_of_a_leg() -> None:
+    """The dog's foot below its hip: knee behind or before, foot below or above the axis turned half round."""
+    robot = robot_called("dog")
+    found = branches(robot, "RR", robot.stance[3])
+    assert set(found) == set(BRANCHES)
+    assert len({tuple(q.round(6)) for q in found.values()}) == 4
+    own = found[tuple(robot.branch[3])]
+    np.testing.assert_allclose(own, angles(robot, robot.stance)[0][3], atol=1e-14)
+    assert branches(robot, "RR", robot.stance[3] * 9.0) == {}
+    with pytest.raises(WrongUse, match="no leg 'LF'; there is: FL, FR, RL, RR"):
+        branches(robot, "LF", robot.stance[0])
+
+
+# --- reach in words ------------------------------------------------------------------------------
+def test_a_foot_too_far_is_told_with_leg_distance_and_length() -> None:
+    robot = robot_called("dog")
+    wanted = robot.stance.copy()
+    wanted[1] += (0.0, 0.0, -0.252)
+    far = reach(robot, wanted)[1]
+    assert (far.leg, far.code) == ("FR", TOO_FAR)
+    assert far.measure == pytest.approx(0.52)
+    assert far.sentence == "leg FR: the foot is 0.52 m from hip 2, the stretched leg is 0.43 m"
+
+
+def test_a_foot_too_near_is_told_with_leg_distance_and_length() -> None:
+    robot = robot_called("dog")
+    folded = robot.hip + [[0.0, y, 0.005] for y in robot.offset[:, 0, 1]]
+    near = reach(robot, folded)[2]
+    assert (near.code, near.measure, near.limit) == (TOO_NEAR_HIP, pytest.approx(0.005), pytest.approx(0.01))
+    assert near.sentence == "leg RL: the foot is 0.005 m from hip 2, the folded leg is 0.01 m"
+    inside = reach(robot, robot.hip + np.array([0.1, 0.03, 0.04]))[0]
+    assert inside.code == TOO_NEAR_AXIS
+    assert (
+        inside.sentence
+        == "leg FL: the foot is 0.05 m from the first axis, the leg's lateral offset is 0.09 m"
+    )
+
+
+def test_a_limit_in_the_way_is_told_with_joint_and_angle() -> None:
+    robot = robot_called("dog")
+    q = np.tile([0.0, 0.4, -0.3], (4, 1))
+    stuck = reach(robot, feet(robot, q))[0]
+    assert (stuck.code, stuck.limit) == (BEYOND_LIMIT, -0.5)
+    assert stuck.sentence == "leg FL: knee would stand at -0.3 rad, beyond its limit of -0.5 rad"
+    at_limit = reach(robot, feet(robot, np.tile([1.0, 0.9, -0.5], (4, 1))))
+    assert [r.code for r in at_limit] == [REACHED] * 4
+
+
+@given(st.sampled_from(["dog", "insect"]), st.integers(0, 2**32 - 1))
+def test_reach_agrees_with_the_angles_and_its_numbers_say_why(name: str, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    robot = unlike(robot_called(name), rng)
+    wanted = robot.hip + rng.normal(0.0, 0.25, (robot.n, 3))
+    _, reached = angles(robot, wanted)
+    for told, there in zip(reach(robot, wanted), reached, strict=True):
+        assert there == (told.code in (REACHED, BEYOND_LIMIT))
+        assert told.sentence.startswith(f"leg {told.leg}: ")
+        assert f"{told.measure:.3g}" in told.sentence and f"{told.limit:.3g}" in told.sentence
+        if told.code in (REACHED, TOO_NEAR_AXIS, TOO_NEAR_HIP):
+            assert told.measure <= told.limit * (1.0 + 1e-9)
+        if told.code == TOO_FAR:
+            assert told.measure > told.limit
+
+
+@pytest.mark.parametrize(
+    ("q", "sentence"),
+    [
+        ([0.1, 0.5, 0.0], "leg FL: the knee is straight, its sine is 0"),
+        ([0.1, 0.5, -0.004], "leg FL: the knee is straight, its sine is 0.004"),
+        ([0.0, 0.6, -1.2], "leg FL: regular: the foot is 0.35 m from under the first axis, "
+         "the knee's sine is 0.93"),
+        ([0.0, math.pi / 2, 0.0], "leg FL: the foot is under the first axis, 0 m from it in the plane of "
+         "the knee and the knee is straight, its sine is 0"),
+    ],
+)  # fmt: skip
+def test_singular_poses_are_told_with_their_numbers(q, sentence) -> None:
+    robot = robot_called("dog")
+    assert poses(robot, np.tile(q, (4, 1)))[0].sentence == sentence
 
 
 @given(st.integers(0, 2**32 - 1))

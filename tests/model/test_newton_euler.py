@@ -4,7 +4,21 @@ import numpy as np
 import pytest
 
 from gaitwright.geometry import GRAVITY, rotation
-from gaitwright.model.dynamics.newton_euler import inverse_dynamics, solve_columns
+from gaitwright.model.dynamics.leg import leg_at, leg_of, leg_turns
+from gaitwright.model.dynamics.newton_euler import (
+    bias_motion,
+    dynamics_in,
+    dynamics_of,
+    foot_acceleration,
+    inverse_dynamics,
+    joint_accelerations,
+    links_motion,
+    motion_at_hip,
+    solve_columns,
+    state_numbers,
+    with_accelerations,
+)
+from gaitwright.model.kinematics import angles, feet
 from gaitwright.model.robot import Robot
 from oracles import State, any_state, mujoco_inverse, pinocchio_inverse, robot_called, unlike
 
@@ -113,6 +127,69 @@ def kinetic_energy(robot: Robot, v, w, q, qd) -> float:
         robot.arrays, (0.0, 0.0, 0.0), tuple(w), tuple(v), q, np.zeros_like(q), qd
     )
     return 0.5 * float(v @ force + w @ moment + (tau * qd).sum())
+
+
+@NAMES
+def test_a_leg_read_from_the_packed_robot_is_that_of_its_arrays(name: str, rng: np.random.Generator) -> None:
+    robot = unlike(robot_called(name), rng)
+    for k in range(robot.n):
+        assert leg_at(robot.packed, k) == leg_of(robot.arrays, k)
+
+
+@NAMES
+def test_one_call_gives_dynamics_feet_and_jacobians(name: str, rng: np.random.Generator) -> None:
+    """The dynamics are those of `inverse_dynamics` to the bit, the feet those of the kinematics."""
+    robot = unlike(robot_called(name), rng)
+    s = any_state(robot, rng)
+    w, wd, a = s.angular_velocity_b, s.angular_acceleration_b, s.acceleration_w
+    got = dynamics_in(dynamics_of(robot.packed, state_numbers(w, wd, a, s.q, s.qd, s.qdd)))
+    force, moment, tau = inverse_dynamics(robot.arrays, tuple(w), tuple(wd), tuple(a), s.q, s.qd, s.qdd)
+    np.testing.assert_array_equal(got.wrench, [*force, *moment])
+    np.testing.assert_array_equal(got.tau, tau)
+    np.testing.assert_allclose(got.feet, feet(robot, s.q), atol=1e-12)
+    step = 1e-6
+    for j, unit in enumerate(np.eye(3)):
+        slope = (feet(robot, s.q + step * unit) - feet(robot, s.q - step * unit)) / (2 * step)
+        np.testing.assert_allclose(got.columns[:, j], slope, atol=1e-8)
+
+
+@NAMES
+def test_accelerations_add_to_the_bias_and_leave_it_where_they_are_zero(
+    name: str, rng: np.random.Generator
+) -> None:
+    """q̈ in two parts is q̈ in one: the outward pass splits."""
+    robot = unlike(robot_called(name), rng)
+    s = any_state(robot, rng)
+    w, wd, a = map(tuple, (s.angular_velocity_b, s.angular_acceleration_b, s.acceleration_w))
+    leg = leg_at(robot.packed, robot.n - 1)
+    turns, qd, qdd = leg_turns(s.q[-1], leg.sign), tuple(s.qd[-1]), s.qdd[-1]
+    bias = bias_motion(turns, qd, leg.offset, leg.sign, *motion_at_hip(leg, w, wd, a))
+    assert with_accelerations(turns, bias, (0.0, 0.0, 0.0), leg.offset, leg.sign) == bias
+    part = with_accelerations(turns, bias, tuple(0.3 * qdd), leg.offset, leg.sign)
+    both = with_accelerations(turns, part, tuple(0.7 * qdd), leg.offset, leg.sign)
+    once = links_motion(leg, turns, w, wd, a, qd, tuple(qdd))
+    np.testing.assert_allclose(both, once, atol=1e-12 * np.abs(once).max())
+
+
+@NAMES
+def test_joint_accelerations_give_the_feet_theirs(name: str, rng: np.random.Generator) -> None:
+    robot = robot_called(name)
+    s = any_state(robot, rng)
+    q = robot_stance(robot) + rng.uniform(-0.1, 0.1, (robot.n, 3))
+    w, wd, a = map(tuple, (s.angular_velocity_b, s.angular_acceleration_b, s.acceleration_w))
+    asked = rng.normal(0.0, 10.0, (robot.n, 3))
+    qdd = joint_accelerations(robot.packed, w, wd, a, q, s.qd, asked)
+    for k in range(robot.n):
+        leg = leg_at(robot.packed, k)
+        turns = leg_turns(q[k], leg.sign)
+        links = links_motion(leg, turns, w, wd, a, tuple(s.qd[k]), tuple(qdd[k]))
+        got = robot.leg_frame[k] @ foot_acceleration(turns, links, leg.offset)
+        np.testing.assert_allclose(got, asked[k], atol=1e-10 * np.abs(qdd).max())
+
+
+def robot_stance(robot: Robot) -> np.ndarray:
+    """Angles of the nominal stance."""
+    return angles(robot, robot.stance)[0]
 
 
 def test_three_columns_are_solved_exactly(rng: np.random.Generator) -> None:

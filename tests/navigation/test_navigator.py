@@ -59,7 +59,7 @@ def test_following_the_path_drops_its_points_and_ends_arrived() -> None:
         route = navigator.plan(route, at(*here))
         left.append(route.remaining)
     assert route.arrived and len(route.path) == 1
-    assert navigator.at_goal(Mission(((6.0, 2.0),)), at(*here))
+    assert math.dist(here, (6.0, 2.0)) <= ARRIVED * UNIT
     # Cutting a corner within PASSED may only shorten what is left.
     assert (np.diff(left) <= 1e-9).all()
 
@@ -94,7 +94,6 @@ def test_the_goal_counts_within_its_radius_and_no_farther(away: float, angle: fl
     assume(abs(away - ARRIVED) > 1e-6 and abs(away - STOP_AT) > 1e-6)
     navigator, mission = among(), Mission(((1.0, 0.0),))
     here = at(1.0 + away * UNIT * math.cos(angle), away * UNIT * math.sin(angle))
-    assert navigator.at_goal(mission, here) == (away < ARRIVED)
     assert navigator.plan(navigator.set_out(mission, at(0.0, 0.0)), here).arrived == (away < STOP_AT)
 
 

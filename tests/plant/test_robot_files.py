@@ -214,6 +214,7 @@ def test_includes_of_the_same_folder(tmp_path):
 # --- what is refused -------------------------------------------------------------------------------
 FIXED_BASE = mjcf(legs(), base="")
 REFUSED = {
+    "must be larger than mjMINVAL (element 'leg01')": mjcf(legs()).replace('mass=".5"', 'mass="0"', 1),
     "not XML": "robots are great",
     "outermost element is <html>": "<html/>",
     "DOCTYPE": '<!DOCTYPE mujoco [<!ENTITY a "b">]><mujoco/>',
@@ -230,8 +231,25 @@ REFUSED = {
     "its third hinge is 90.00° from parallel": mjcf(legs(third="0 0 1")),
     "leg FL has no foot": mjcf(legs(foot="")),
     "leg FL: its thigh has no length": mjcf(legs()).replace('pos="0 0 -.2">', 'pos="0 .1 0">'),
-    "is not finite": mjcf(legs()).replace('mass="8" pos="0', 'mass="8" pos="nan'),
-    "base_mass has a number that is not finite": mjcf(legs()).replace('mass="8"', 'mass="1e300"'),
+    "leg FL: its shank has no length: knee and foot are 0 m apart": mjcf(
+        legs(foot='<geom size=".02" pos="0 .1 0"/>')
+    ),
+    "base_mass is not finite or not below 1e+06": mjcf(legs()).replace('mass="8"', 'mass="1e300"'),
+    "damping of leg FR, knee is not finite or not below 1e+06 (SI units): 1e+30": mjcf(legs()).replace(
+        'name="leg1c"', 'name="leg1c" damping="1e30"'
+    ),
+    "armature of leg FL, hip 2 is -1; expected 0 or more": mjcf(legs()).replace(
+        'name="leg0b"', 'name="leg0b" armature="-1"'
+    ),
+    "the place of leg FL, knee, is not finite or not below 1e+06 (SI units): -1e+30": mjcf(legs()).replace(
+        'pos="0 0 -.2"><inertial', 'pos="0 0 -1e30"><inertial'
+    ),
+    "leg FL has a thigh or shank without mass: [1.0, 0.0, 0.5] kg": mjcf(legs())
+    .replace('<joint name="leg0b" axis="0 1 0"/>', "")
+    .replace(
+        '<joint name="leg0c" axis="0 1 0"/>',
+        '<joint name="leg0b" axis="0 1 0" pos="0 0 .2"/><joint name="leg0c" axis="0 1 0"/>',
+    ),
     "mass and inertia": mjcf(legs()).replace('mass=".5"', 'mass="-1"'),
     "<attach> is not supported": mjcf('<attach model="other" prefix="a"/>'),
     "includes '../secret.xml'": mjcf('<include file="../secret.xml"/>'),
@@ -243,6 +261,54 @@ REFUSED = {
     ),
     "xacro": '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:macro/></robot>',
 }
+
+
+URDF = f'<robot name="r">{URDF_BASE}{URDF_LEGS}</robot>'
+AXIS = '<axis xyz="0 -1 0"/>'
+NOT_NUMBERS = {
+    "pos='0 0 nan' of <inertial> in body 'base' is not finite": mjcf(legs()).replace("0 0 0", "0 0 nan"),
+    "mass='inf' of <inertial> in body 'leg01' is not finite": mjcf(legs()).replace('".5"', '"inf"', 1),
+    "axis='0 1e400 0' of joint 'leg1b' is not finite": mjcf(legs()).replace(
+        'name="leg1b" axis="0 1 0"', 'name="leg1b" axis="0 1e400 0"'
+    ),
+    "range='-Infinity 1' of joint 'leg0c' is not finite": mjcf(legs()).replace(
+        'name="leg0c"', 'name="leg0c" range="-Infinity 1"'
+    ),
+    "the axis '0 0 0' of joint 'leg2a' has no length": mjcf(legs()).replace(
+        'name="leg2a" axis="1 0 0"', 'name="leg2a" axis="0 0 0"'
+    ),
+    "the axis '0 1e-16 -0.0' of joint 'leg3c' has no length": mjcf(legs()).replace(
+        'name="leg3c" axis="0 1 0"', 'name="leg3c" axis="0 1e-16 -0.0"'
+    ),
+    "MuJoCo refuses it: bad format in attribute 'axis'": mjcf(legs()).replace("1 0 0", "1 zero 0"),
+    "xyz='0 nan 0' of <axis> in joint 'leg0c' is not finite": URDF.replace(
+        AXIS, AXIS.replace("-1", "nan"), 1
+    ),
+    "the axis '0 0 0' of <axis> in joint 'leg0c' has no length": URDF.replace(
+        AXIS, AXIS.replace("-1", "0"), 1
+    ),
+    "ixx='1e309' of <inertia> in link 'leg01' is not finite": URDF.replace('ixx=".01"', 'ixx="1e309"', 1),
+}
+"""What is no number, or no direction, before MuJoCo sees it; in MJCF and in URDF."""
+
+
+@pytest.mark.parametrize("sentence", NOT_NUMBERS)
+def test_what_is_no_number_is_told_with_its_place(tmp_path, sentence):
+    text = NOT_NUMBERS[sentence]
+    with pytest.raises(BadFile) as error:
+        read(tmp_path, text, "robot.urdf" if text.startswith("<robot") else "robot.xml")
+    assert sentence in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("length", "text"),
+    [("-.2", "thigh has no length: hip 2 and knee"), ("-.25", "shank has no length: knee")],
+)
+def test_a_urdf_whose_hinges_coincide_is_told_with_leg_and_link(tmp_path, length, text):
+    flat = URDF.replace(f'<origin xyz="0 0 {length}"/>', '<origin xyz="0 .01 0"/>')
+    with pytest.raises(BadFile, match=f"leg FL: its {text}.* 0 m apart.*more than 1e-06 m"):
+        read(tmp_path, flat, "robot.urdf")
 
 
 @pytest.mark.parametrize("sentence", REFUSED)

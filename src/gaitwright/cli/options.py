@@ -82,6 +82,18 @@ COMMANDS = {
         "Measures what this project claims about itself, on this machine. Without names: everything.",
         ("gaitwright bench", "gaitwright bench --quick", "gaitwright bench tick --json bench.json"),
     ),
+    "reproduce": Command(
+        "tables and figures of the thesis",
+        "Computes tables and figures of the thesis anew and holds them against what it says: what agrees, "
+        "what does not, and what cannot. Prints them and leaves each as Markdown, the figures as PNG too, "
+        "over those of an earlier run. Names: table-6.1, table-6.2, figure-6.5, figure-6.6; without names: "
+        "all. Exit code 0: every claim agrees that can; 1: one does not.",
+        (
+            "gaitwright reproduce",
+            "gaitwright reproduce table-6.1",
+            "gaitwright reproduce figure-6.6 --out here",
+        ),
+    ),
     "doctor": Command(
         "what is installed, what is missing, how to mend it",
         "Looks at Python, the packages and the folder, and names the one command that mends what is missing. "
@@ -264,6 +276,12 @@ def add_bench(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quick", action="store_true", help="fewer repetitions: a look, not a result")
 
 
+def add_reproduce(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("names", nargs="*", metavar="NAME", help="what to reproduce (all)")
+    where = "a folder for the files (runs/reproduce)"
+    parser.add_argument("--out", default="runs/reproduce", metavar="DIR", help=where)
+
+
 def add_nothing(parser: argparse.ArgumentParser) -> None:
     """A command of `--json` alone."""
 
@@ -276,5 +294,6 @@ ADD = {
     "scenes": add_nothing,
     "skills": add_skills,
     "bench": add_bench,
+    "reproduce": add_reproduce,
     "doctor": add_nothing,
 }

@@ -8,8 +8,10 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from jaxtyping import Float
 
 from gaitwright.compiled import kernel
+from gaitwright.control.moments import moment_of, row
 from gaitwright.geometry import (
     GRAVITY,
     add,
@@ -24,9 +26,20 @@ from gaitwright.geometry import (
     times_t,
     vec,
 )
-from gaitwright.model.dynamics.newton_euler import hip_motion, inverse_dynamics, leg_motion, solve_columns
-from gaitwright.model.kinematics import leg_points_and_jacobian, to_base
-from gaitwright.model.robot import unpacked
+from gaitwright.model.dynamics.leg import base_at, foot_and_columns, hinge_axes, leg_at, leg_turns
+from gaitwright.model.dynamics.matrices import apply, apply_t, write
+from gaitwright.model.dynamics.newton_euler import (
+    NO_LOAD,
+    bias_motion,
+    foot_acceleration,
+    leg_load,
+    link_load,
+    motion_at_hip,
+    solve_columns,
+    with_accelerations,
+)
+from gaitwright.model.robot import Robot
+from gaitwright.signals import MotionTarget, Sensed
 
 # Gains, in units of the robot's own frequency w0 = √(g/h) (control.md, measured on five robots).
 HORIZONTAL = (0.5, 1.2)
@@ -51,21 +64,24 @@ def clipped(a, most):
 
 
 @kernel
-def base_acceleration(
-    w0, position, velocity, rotation_wb, spin_w, want_p, want_v, want_a, want_r, want_w, want_wd
-):
-    """Wanted linear and angular acceleration of the base, world axes, by feedback (control.md)."""
-    dp, dv = sub(want_p, position), sub(want_v, velocity)
-    h, v = HORIZONTAL, VERTICAL
+def base_acceleration(w0, rotation_wb, spin_w, moment):
+    """Wanted linear and angular acceleration of the base, world axes, by feedback (control.md).
+
+    Without a foot down it is left to fall.
+    """
+    if not moment.stance.any():
+        return (0.0, 0.0, -GRAVITY), (0.0, 0.0, 0.0)
+    dp = sub(vec(moment.want_p), vec(moment.position))
+    dv = sub(vec(moment.want_v), vec(moment.velocity))
+    h, v, want_a = HORIZONTAL, VERTICAL, moment.want_a
     linear = (
         h[1] * w0 * dv[0] + h[0] * w0 * w0 * dp[0] + want_a[0],
         h[1] * w0 * dv[1] + h[0] * w0 * w0 * dp[1] + want_a[1],
         v[1] * w0 * dv[2] + v[0] * w0 * w0 * dp[2] + want_a[2],
     )
-    error = rotation_vector(between(rotation_wb, want_r))
-    angular = add(
-        add(scale(ATTITUDE[0] * w0 * w0, error), scale(ATTITUDE[1] * w0, sub(want_w, spin_w))), want_wd
-    )
+    error = scale(ATTITUDE[0] * w0 * w0, rotation_vector(between(rotation_wb, moment.want_r)))
+    damping = scale(ATTITUDE[1] * w0, sub(vec(moment.want_w), spin_w))
+    angular = add(add(error, damping), vec(moment.want_wd))
     return clipped(linear, MOST_ACCELERATION), clipped(angular, MOST_SPIN * w0)
 
 
@@ -76,26 +92,30 @@ def combined(rates, columns):
 
 
 @kernel
-def swing_acceleration(w0, position, velocity, want_p, want_v, want_a):
-    """Wanted acceleration of a foot in the air, world axes, by feedback."""
+def swing_acceleration(w0, R, w, in_base, rate, leg, moment):
+    """Wanted acceleration of a foot in the air, world axes, by feedback.
+
+    `in_base`, `rate`: where its centre is and how it moves as seen from the base, which spins with `w`.
+    """
+    position = add(vec(moment.position), times(R, in_base))
+    velocity = add(vec(moment.velocity), times(R, add(cross(w, in_base), rate)))
     kp, kv = SWING_FOOT[0] * w0 * w0, SWING_FOOT[1] * w0
-    return add(want_a, add(scale(kp, sub(want_p, position)), scale(kv, sub(want_v, velocity))))
+    off, late = sub(vec(moment.feet_p[leg]), position), sub(vec(moment.feet_v[leg]), velocity)
+    return add(vec(moment.feet_a[leg]), add(scale(kp, off), scale(kv, late)))
 
 
 @kernel
-def write_push(out, R, frame, q1, sign, columns, below):
-    """Writes the Jacobian columns of the contact point as rows in world axes.
+def write_maps(out, push, turn, R, leg, turns, columns, below):
+    """Writes the Jacobian columns of the contact point and the hinge axes as rows in world axes.
 
-    The point where a round foot touches lies `below` (leg frame) the centre that `columns` are of.
+    The point where a round foot touches lies `below` (leg frame) the centre that `columns` are of; `push`,
+    `turn`: where the two begin in `out`.
     """
-    axis2 = (0.0, math.cos(q1), math.sin(q1))
-    at_contact = (
-        add(columns[0], cross((1.0, 0.0, 0.0), below)),
-        add(columns[1], cross(axis2, below)),
-        add(columns[2], cross(scale(sign, axis2), below)),
-    )
+    axes = hinge_axes(turns, leg.sign)
     for j in range(3):
-        out[j, 0], out[j, 1], out[j, 2] = times(R, times(frame, at_contact[j]))
+        column = add(columns[j], cross(axes[j], below))
+        write(out, push + 3 * j, times(R, apply(leg.frame, column)))
+        write(out, turn + 3 * j, times(R, apply(leg.frame, axes[j])))
 
 
 class Load(NamedTuple):
@@ -109,85 +129,61 @@ class Load(NamedTuple):
     """`(legs, 3)` base origin → contact point, world axes [m]."""
     push: np.ndarray
     """`(legs, 3, 3)` rows: the joints' Jacobian columns of the contact point, world: τ = free − push @ f."""
+    turn: np.ndarray
+    """`(legs, 3, 3)` rows: the joints' axes, world; a moment m on the foot takes turn @ m off the torques."""
 
 
 @kernel
 def load_of(numbers):
     """The `Load` packed in one array, as views."""
-    n = (numbers.size - 6) // 15
+    n = (numbers.size - 6) // 24
     return Load(
         numbers[:6],
         numbers[6 : 6 + 3 * n].reshape(n, 3),
         numbers[6 + 3 * n : 6 + 6 * n].reshape(n, 3),
-        numbers[6 + 6 * n :].reshape(n, 3, 3),
+        numbers[6 + 6 * n : 6 + 15 * n].reshape(n, 3, 3),
+        numbers[6 + 15 * n :].reshape(n, 3, 3),
     )
 
 
 @kernel
-def demand(
-    packed,
-    w0,
-    position,
-    orientation,
-    velocity,
-    spin_b,
-    q,
-    qd,
-    stance,
-    normal,
-    want_p,
-    want_v,
-    want_a,
-    want_r,
-    want_w,
-    want_wd,
-    feet_p,
-    feet_v,
-    feet_a,
-):
-    """The packed `Load` of a robot (`Robot.packed`, frequency w0) in a sensed state for a motion target."""
-    model = unpacked(packed)
-    n = q.shape[0]
-    R = rotation(orientation)
-    w = vec(spin_b)
-    linear, angular = base_acceleration(
-        w0, vec(position), vec(velocity), R, times(R, w), vec(want_p), vec(want_v), vec(want_a), want_r,
-        vec(want_w), vec(want_wd),
-    )  # fmt: skip
-    if not stance.any():
-        linear, angular = (0.0, 0.0, -GRAVITY), (0.0, 0.0, 0.0)
+def demand(packed, moment):
+    """The packed `Load` of a robot (`Robot.packed`) in a moment: what is sensed and what is wanted."""
+    n, w0 = moment.stance.size, packed[-1]
+    R, w = rotation(moment.orientation), vec(moment.spin_b)
     up_b = times_t(R, (0.0, 0.0, GRAVITY))
-    a = add(times_t(R, linear), up_b)
-    wd = times_t(R, angular)
-
-    qdd = np.empty((n, 3))
-    still = np.zeros(3)
-    out = np.empty(6 + 15 * n)
-    load = load_of(out)
-    for leg in range(n):
-        frame, hip = model.leg_frame[leg], vec(model.hip[leg])
-        foot, c1, c2, c3 = leg_points_and_jacobian(q[leg], model.offset[leg], model.sign[leg])
-        columns = (c1, c2, c3)
-        in_base = to_base(frame, model.hip[leg], foot)
+    linear, angular = base_acceleration(w0, R, times(R, w), moment)
+    a, wd = add(times_t(R, linear), up_b), times_t(R, angular)
+    out = np.empty(6 + 24 * n)
+    mass, com, inertia = base_at(packed)
+    force, torque = link_load((w, wd, a), mass, com, inertia)
+    for k in range(n):
+        leg = leg_at(packed, k)
+        turns, rates = leg_turns(moment.q[k], leg.sign), vec(moment.qd[k])
+        foot, c1, c2, c3 = foot_and_columns(turns, leg.offset, leg.sign)
+        in_base = add(leg.hip, apply(leg.frame, foot))
         goal = up_b
-        if not stance[leg]:
-            at = add(vec(position), times(R, in_base))
-            rate = times(frame, combined(qd[leg], columns))
-            moves = add(vec(velocity), times(R, add(cross(w, in_base), rate)))
-            swing = swing_acceleration(w0, at, moves, vec(feet_p[leg]), vec(feet_v[leg]), vec(feet_a[leg]))
-            goal = add(times_t(R, swing), up_b)
-        hw, hwd, ha = hip_motion(frame, hip, w, wd, a)
-        bias = leg_motion(q[leg], qd[leg], still, model.offset[leg], model.sign[leg], hw, hwd, ha)[3]
-        need = sub(times_t(frame, goal), bias)
-        qdd[leg, 0], qdd[leg, 1], qdd[leg, 2] = solve_columns(c1, c2, c3, need)
-        below_w = scale(-model.foot_radius[leg], vec(normal))
-        arm = add(times(R, in_base), below_w)
-        load.arm[leg, 0], load.arm[leg, 1], load.arm[leg, 2] = arm
-        below = times_t(frame, times_t(R, below_w))
-        write_push(load.push[leg], R, frame, q[leg, 0], model.sign[leg], columns, below)
-    force_b, moment_b, free = inverse_dynamics(model, w, wd, a, q, qd, qdd)
-    force, moment = times(R, force_b), times(R, moment_b)
-    for i in range(3):
-        load.wrench[i], load.wrench[3 + i] = force[i], moment[i]
-    load.free[:] = free
+        if not moment.stance[k]:
+            rate = apply(leg.frame, combined(rates, (c1, c2, c3)))
+            goal = add(times_t(R, swing_acceleration(w0, R, w, in_base, rate, k, moment)), up_b)
+        hip_w, hip_wd, hip_a = motion_at_hip(leg, w, wd, a)
+        bias = bias_motion(turns, rates, leg.offset, leg.sign, hip_w, hip_wd, hip_a)
+        short = sub(apply_t(leg.frame, goal), foot_acceleration(turns, bias, leg.offset))
+        qdd = solve_columns(c1, c2, c3, short)
+        motion = with_accelerations(turns, bias, qdd, leg.offset, leg.sign)
+        f, g, free = leg_load(turns, qdd, leg, motion, NO_LOAD)
+        force, torque = add(force, f), add(torque, g)
+        below_w = scale(-leg.foot_radius, vec(moment.normal))
+        write(out, 6 + 3 * k, free)
+        write(out, 6 + 3 * n + 3 * k, add(times(R, in_base), below_w))
+        below = apply_t(leg.frame, times_t(R, below_w))
+        at = 6 + 6 * n + 9 * k
+        write_maps(out, at, at + 9 * n, R, leg, turns, (c1, c2, c3), below)
+    write(out, 0, times(R, force))
+    write(out, 3, times(R, torque))
     return out
+
+
+def packed_load(robot: Robot, target: MotionTarget, sensed: Sensed) -> Float[np.ndarray, "numbers"]:
+    """The packed `Load` of a robot for a target where it is; for people, not for the tick."""
+    return demand(robot.packed, moment_of(row(sensed, target)))

@@ -2,12 +2,16 @@
 
 Unknowns are the foot forces in the contact frame (two tangents, normal), in units of the weight. Both
 programs have the same limits: friction pyramid, normal force between 0 and a bound that ramps at both
-ends of stance, torque limits of both signs (equations.md §5, control.md "Force distribution").
+ends of stance, torque limits of both signs (equations.md §5, control.md "Force distribution"). Every answer
+tells what each limit costs, its *price*, as an array `(legs, LIMITS)`: four sides of the friction pyramid
+(+t₁, −t₁, +t₂, −t₂), normal force at 0, at its bound, and the torques of the three joints, whose price is
+positive at the upper limit and negative at the lower one. 0: not at that limit, or in swing.
 """
 
 import numpy as np
 
 from gaitwright.compiled import kernel
+from gaitwright.control.active_set import minimise
 from gaitwright.control.demand import load_of
 from gaitwright.geometry import cross, dot, scale, sub, vec
 
@@ -23,6 +27,8 @@ SMALL = 1e-4
 """Price of a force in itself (‖f‖²), which spreads the load."""
 SMOOTH = 1e-3
 """Price of a change of force from tick to tick (‖f − f_prev‖²)."""
+LIMITS = 9
+"""Limits of one foot that have a price."""
 
 
 @kernel
@@ -147,26 +153,71 @@ def quadratic_program(load_numbers, stance, share, normal, previous, tau_max, we
 
 
 @kernel
-def conclude(load_numbers, stance, normal, x, tau_max, weight, height):
-    """Joint torques and foot forces `(legs, 3)` of a solution, and the length of the unmet wrench.
+def distribute(load_numbers, stance, share, normal, previous, tau_max, weight, height):
+    """Solves the quadratic program: x `(3m,)`, prices `(legs, LIMITS)`, code of `minimise`, and culprit.
 
-    The torques are τ = free − push @ f, kept within the limits; the unmet wrench is scaled as in the
-    program (a share of the weight).
+    The culprit is a torque limit wherever one is part of what excludes a solution.
     """
-    load = load_of(load_numbers)
-    frame = contact_frame(normal)
-    forces = to_world(x, stance, frame, weight)
-    tau = np.empty(forces.shape)
+    hessian, gradient, rows, lower, upper = quadratic_program(
+        load_numbers, stance, share, normal, previous, tau_max, weight, height
+    )
+    x, prices, code, culprit = minimise(hessian, gradient, rows, lower, upper)
+    torque_rows = 7 * stance.sum()
+    if 0 <= culprit < torque_rows:
+        dearest = torque_rows + np.argmax(np.abs(prices[torque_rows:]))
+        culprit = dearest if prices[dearest] != 0.0 else culprit
+    return x, by_leg(prices, stance), code, culprit
+
+
+@kernel
+def by_leg(prices, stance):
+    """Prices of the program's bounds and rows, in the order of `limit_rows`, as `(legs, LIMITS)`."""
+    m = stance.sum()
+    out = np.zeros((stance.size, LIMITS))
+    k = 0
     for leg in range(stance.size):
+        if not stance[leg]:
+            continue
+        for side in range(4):
+            out[leg, side] = -prices[3 * m + 4 * k + side]
+        normal = prices[3 * k + 2]
+        out[leg, 4], out[leg, 5] = max(normal, 0.0), max(-normal, 0.0)
+        for j in range(3):
+            out[leg, 6 + j] = -prices[7 * m + 3 * k + j]
+        k += 1
+    return out
+
+
+@kernel
+def torques(load_numbers, forces, tau_max):
+    """τ = free − push @ f, kept within the limits `(legs, 3)` [N·m]."""
+    load = load_of(load_numbers)
+    tau = np.empty(forces.shape)
+    for leg in range(forces.shape[0]):
         for j in range(3):
             t = load.free[leg, j] - dot(vec(load.push[leg, j]), vec(forces[leg]))
             tau[leg, j] = min(max(t, -tau_max[leg, j]), tau_max[leg, j])
-    unmet = 0.0
-    if stance.any():
-        rows, wanted = balance_rows(load.wrench, load.arm, stance, frame, weight, height)
-        for i in range(6):
-            e = -wanted[i]
-            for j in range(rows.shape[1]):
-                e += rows[i, j] * x[j]
-            unmet += e * e
-    return tau, forces, np.sqrt(unmet)
+    return tau
+
+
+@kernel
+def unmet(load_numbers, forces, stance, weight, height):
+    """Length of the wrench that the forces lack, scaled as in the programs (a share of the weight).
+
+    Nothing is asked of a robot without a foot down.
+    """
+    if not stance.any():
+        return 0.0
+    load = load_of(load_numbers)
+    lack = -load.wrench
+    for leg in range(forces.shape[0]):
+        f = vec(forces[leg])
+        moment = cross(vec(load.arm[leg]), f)
+        for i in range(3):
+            lack[i] += f[i]
+            lack[3 + i] += moment[i]
+    total = 0.0
+    for i in range(3):
+        force, moment = FORCE_WEIGHTS[i] * lack[i], MOMENT_WEIGHTS[i] * lack[3 + i] / height
+        total += (force * force + moment * moment) / (weight * weight)
+    return np.sqrt(total)

@@ -12,6 +12,7 @@ from gaitwright.gait.contacts import advance_legs, is_lifting, is_missing, share
 from gaitwright.gait.ground import advance_ground, plane_height, plane_normal
 from gaitwright.gait.posture import advance_anchor, sample, slew
 from gaitwright.gait.reference import periodic_reference
+from gaitwright.gait.regulation import height_over
 from gaitwright.gait.state import SEARCH, STANCE, SWING, GaitMemory, packed, standing, state_of
 from gaitwright.gait.swing import hip_over_ground, search_reference, swing_reference, touchdown
 from gaitwright.geometry import (
@@ -64,7 +65,8 @@ def base_reference(state, table, stand, position, yaw_d):
     vy = s * state.command[0] + c * (state.command[1] + yd)
     climb = state.slope[0] * vx + state.slope[1] * vy
     at_x, at_y = state.anchor[0] - s * y, state.anchor[1] + c * y
-    height = plane_height(state.slope, position, position[0], position[1]) + stand + z
+    ground = plane_height(state.slope, position, position[0], position[1])
+    height = height_over(ground, stand, plane_normal(state.slope)) + z
     return (at_x, at_y, height), (vx, vy, climb + zd), (-s * ydd, c * ydd, zdd), (p, pd, pdd)
 
 

@@ -3,6 +3,7 @@
 import math
 
 from gaitwright.compiled import kernel
+from gaitwright.geometry import GRAVITY
 
 AIM_BELOW = 0.10
 """The touch-down is aimed this share of the body height below the ground, so that it happens."""
@@ -73,7 +74,7 @@ def swing_reference(origin, x, y, ground, s, duration, height, out_p, out_v, out
 @kernel
 def search_reference(origin, seconds, height, out_p, out_v, out_a):
     """Writes the reference of a late foot: straight down at a steady speed, to a limit."""
-    speed = SEARCH_FROUDE * math.sqrt(9.81 * height)
+    speed = SEARCH_FROUDE * math.sqrt(GRAVITY * height)
     depth = min(speed * seconds, SEARCH_DEPTH * height)
     out_p[0], out_p[1], out_p[2] = origin[0], origin[1], origin[2] - depth
     out_v[0], out_v[1] = 0.0, 0.0

@@ -6,22 +6,27 @@ the component of the foot along x does not change with hinge 1, and the foot kee
 """
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from jaxtyping import Bool, Float
 
 from gaitwright.compiled import kernel
+from gaitwright.errors import WrongUse, unknown
 from gaitwright.geometry import add, cross, scale, sub, turn_x, turn_y, vec, wrap
 from gaitwright.model.robot import Robot
 
 REACHED, TOO_NEAR_AXIS, TOO_FAR, TOO_NEAR_HIP = 0, 1, 2, 3
+"""Reach codes; `model/reach.py` makes sentences of them."""
 
-REACH_SENTENCES = {
-    REACHED: "within reach",
-    TOO_NEAR_AXIS: "the foot is nearer to the first hip axis than the leg's lateral offset",
-    TOO_FAR: "the foot is farther from the hip than the stretched leg",
-    TOO_NEAR_HIP: "the foot is nearer to the hip than the folded leg",
-}
+ROUNDING = 1e-12
+"""A foot this little beyond the leg's reach, as a share, is there by rounding and counts as reached."""
+
+BRANCHES: tuple[tuple[int, int], ...] = ((-1, -1), (-1, 1), (1, -1), (1, 1))
+"""The four branches (sg, kn) of the inverse kinematics: side of the foot, bend of the knee."""
+
+HINGES = ("hip 1", "hip 2", "knee")
+"""The three hinges of a leg, as sentences name them."""
 
 
 @kernel
@@ -53,13 +58,13 @@ def leg_angles(foot, offset, sign, side, bend):
     """Angles of one leg that bring its foot to `foot` (leg frame), and a reach code.
 
     `side`, `bend` (±1) choose the branch. Out of reach, the angles are those of the nearest reachable
-    direction and the code says why (`REACH_SENTENCES`).
+    direction and the code says why.
     """
     code = REACHED
     lateral = offset[0, 1] + offset[1, 1] + offset[2, 1]
     square = foot[1] * foot[1] + foot[2] * foot[2] - lateral * lateral
     if square < 0.0:
-        code = TOO_NEAR_AXIS
+        code = TOO_NEAR_AXIS if square < -ROUNDING * lateral * lateral else REACHED
         square = 0.0
     down = side * math.sqrt(square)
     q1 = wrap(math.atan2(foot[2], foot[1]) - math.atan2(down, lateral))
@@ -71,10 +76,10 @@ def leg_angles(foot, offset, sign, side, bend):
     x, z = foot[0] - offset[0, 0], down - offset[0, 2]
     cosine = (x * x + z * z - thigh * thigh - shank * shank) / (2.0 * thigh * shank)
     if cosine > 1.0:
-        code = TOO_FAR
+        code = TOO_FAR if cosine > 1.0 + ROUNDING else code
         cosine = 1.0
     elif cosine < -1.0:
-        code = TOO_NEAR_HIP
+        code = TOO_NEAR_HIP if cosine < -1.0 - ROUNDING else code
         cosine = -1.0
     sine = bend * math.sqrt((1.0 - cosine) * (1.0 + cosine))
     knee = math.atan2(sine, cosine)
@@ -124,16 +129,62 @@ def all_angles(hip, leg_frame, offset, sign, branch, feet):
     return q, codes
 
 
+# --- whole robots ----------------------------------------------------------------------------------
 def feet(robot: Robot, q: Float[np.ndarray, "legs 3"]) -> Float[np.ndarray, "legs 3"]:
     """Centres of the feet in the base frame [m] for joint angles `q` [rad]."""
     a = robot.arrays
-    return all_feet(a.hip, a.leg_frame, a.offset, a.sign, q)
+    return all_feet(a.hip, a.leg_frame, a.offset, a.sign, per_leg(robot, q, "the angle of", HINGES))
 
 
 def angles(
     robot: Robot, feet_b: Float[np.ndarray, "legs 3"]
 ) -> tuple[Float[np.ndarray, "legs 3"], Bool[np.ndarray, "legs"]]:
-    """Joint angles [rad] for foot centres in the base frame [m], and which legs reach theirs."""
+    """Joint angles [rad] for foot centres in the base frame [m], and which legs reach theirs.
+
+    Each leg stays in its own branch (`Robot.branch`); `reach.reach` says how far the others are off.
+    """
     a = robot.arrays
-    q, codes = all_angles(a.hip, a.leg_frame, a.offset, a.sign, a.branch, feet_b)
+    places = per_leg(robot, feet_b, "the foot's", "xyz")
+    q, codes = all_angles(a.hip, a.leg_frame, a.offset, a.sign, a.branch, places)
     return q, codes == REACHED
+
+
+def branches(
+    robot: Robot, leg: str, foot_b: Float[np.ndarray, "3"]
+) -> dict[tuple[int, int], Float[np.ndarray, "3"]]:
+    """Joint angles [rad] of each branch (sg, kn) that brings the foot of `leg` to `foot_b`, base frame [m].
+
+    Four far inside the reach, none outside; at a singular pose two are the same. Joint limits are not
+    asked. Raises `WrongUse` for a leg that the robot does not have.
+    """
+    if leg not in robot.legs:
+        raise unknown("leg", leg, robot.legs)
+    i = robot.legs.index(leg)
+    a = robot.arrays
+    point = to_leg(a.leg_frame[i], a.hip[i], np.ascontiguousarray(foot_b, dtype=np.float64))
+    return reached_branches(point, a.offset[i], float(a.sign[i]))
+
+
+def reached_branches(
+    point: tuple[float, float, float], offset: Float[np.ndarray, "3 3"], sign: float
+) -> dict[tuple[int, int], Float[np.ndarray, "3"]]:
+    """Joint angles [rad] of each branch that brings the foot of one leg to `point` (leg frame, [m])."""
+    solved = {branch: leg_angles(point, offset, sign, *branch) for branch in BRANCHES}
+    return {branch: np.array(q) for branch, (q, code) in solved.items() if code == REACHED}
+
+
+def per_leg(robot: Robot, values, what: str, parts: Sequence[str]) -> Float[np.ndarray, "legs 3"]:
+    """`values` as the kernels need them: contiguous, finite, a row per leg.
+
+    Raises `WrongUse` with the leg and the number; `what` and `parts` name the three columns.
+    """
+    array = np.ascontiguousarray(values, dtype=np.float64)
+    if array.shape != (robot.n, 3):
+        raise WrongUse(
+            f"{what} {', '.join(parts)} of each leg: got an array of shape {array.shape}; {robot.name} has "
+            f"{robot.n} legs ({', '.join(robot.legs)}), expected ({robot.n}, 3)"
+        )
+    if not np.isfinite(array).all():
+        leg, part = np.argwhere(~np.isfinite(array))[0]
+        raise WrongUse(f"leg {robot.legs[leg]}: {what} {parts[part]} is {array[leg, part]}, not finite")
+    return array

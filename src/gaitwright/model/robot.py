@@ -35,6 +35,7 @@ class RobotArrays(NamedTuple):
     tau_max: np.ndarray
     foot_radius: np.ndarray
     stance: np.ndarray
+    measures: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -125,6 +126,11 @@ class Robot:
         return float(np.sqrt(GRAVITY / self.height))
 
     @cached_property
+    def measures(self) -> Float[np.ndarray, "3"]:
+        """Weight [N], nominal height [m] and natural frequency [1/s]: the units of the controllers."""
+        return np.array([self.total_mass * GRAVITY, self.height, self.natural_frequency])
+
+    @cached_property
     def arrays(self) -> RobotArrays:
         """The same numbers for the kernels: contiguous float64, scalars as arrays of one."""
 
@@ -170,4 +176,5 @@ def unpacked(packed):
         packed[j : j + 3 * n].reshape(n, 3),
         packed[j + 3 * n : j + 4 * n],
         packed[j + 4 * n : j + 7 * n].reshape(n, 3),
+        packed[j + 7 * n :],
     )

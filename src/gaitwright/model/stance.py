@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float
 
 from gaitwright.geometry import turn_x, turn_y
-from gaitwright.model.kinematics import REACHED, foot_in_leg, leg_angles, to_leg
+from gaitwright.model.kinematics import BRANCHES, foot_in_leg, reached_branches, to_leg
 
 DEPTH_BELOW_ABDUCTION = 0.65
 """Abduction leg: depth of the foot below hinge 2, per length of the stretched leg."""
@@ -24,9 +24,6 @@ STANDING = 0.2
 """A pose whose foot is less below the hip than this, per length of the stretched leg, does not stand."""
 BENT = 0.1
 """A pose shows a branch where the next one is farther than this [rad]: bent knees, foot off the axis."""
-
-BRANCHES: tuple[tuple[int, int], ...] = ((-1, -1), (-1, 1), (1, -1), (1, 1))
-"""The four branches (sg, kn) of the inverse kinematics."""
 
 UP, BACK, NONE = np.array([0.0, 0.0, 1.0]), np.array([-1.0, 0.0, 0.0]), np.zeros(3)
 
@@ -81,9 +78,7 @@ def below_yaw(leg: LegShape) -> Float[np.ndarray, "3"]:
 
 def branch_angles(leg: LegShape, foot: Float[np.ndarray, "3"]) -> dict[tuple[int, int], np.ndarray]:
     """Joint angles `(3,)` [rad] of each branch that brings the foot of one leg to `foot` (base frame)."""
-    point = to_leg(leg.leg_frame, leg.hip, foot)
-    solved = {branch: leg_angles(point, leg.offset, leg.sign, *branch) for branch in BRANCHES}
-    return {branch: np.array(q) for branch, (q, code) in solved.items() if code == REACHED}
+    return reached_branches(to_leg(leg.leg_frame, leg.hip, foot), leg.offset, leg.sign)
 
 
 def nominal_branch(

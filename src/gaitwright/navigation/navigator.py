@@ -64,10 +64,6 @@ class Navigator:
     def nowhere(self, mission: Mission, sentence: str) -> Route:
         return Route((), 0.0, mission.speed, mission.driver, no_way=sentence)
 
-    def at_goal(self, mission: Mission, sensed: Sensed) -> bool:
-        """Whether the robot stands within `ARRIVED` body lengths of the goal."""
-        return math.dist(place(sensed), mission.waypoints[-1]) <= ARRIVED * self.robot.body_length
-
 
 def place(sensed: Sensed) -> tuple[float, float]:
     """Where the robot is, seen from above [m]."""

@@ -1,5 +1,6 @@
 """A robot's file → a compiled MuJoCo model with no more meshes than its numbers need (row R2)."""
 
+import re
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
@@ -29,9 +30,12 @@ def compiled(path: Path) -> mujoco.MjModel:
 
 
 def refused(error: Exception) -> BadFile:
-    """MuJoCo's own first line, as our error."""
+    """MuJoCo's own first line, and the element it names further down, as our error."""
     lines = str(error).strip().splitlines() or ["no reason given"]
-    return BadFile(f"MuJoCo refuses it: {lines[0].removeprefix('XML Error: ').removeprefix('Error: ')}")
+    named = re.search(r"Element name '(.+?)'", str(error))
+    where = f" (element {named[1]!r})" if named else ""
+    reason = lines[0].removeprefix("XML Error: ").removeprefix("Error: ")
+    return BadFile(f"MuJoCo refuses it: {reason}{where}")
 
 
 def let_float(spec: mujoco.MjSpec) -> None:

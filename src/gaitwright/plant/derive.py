@@ -9,9 +9,10 @@ import numpy as np
 from gaitwright.errors import BadFile
 from gaitwright.geometry import GRAVITY
 from gaitwright.model import stance
-from gaitwright.model.kinematics import angles
+from gaitwright.model.kinematics import HINGES, angles
 from gaitwright.model.robot import Robot
 from gaitwright.model.stance import LegShape
+from gaitwright.plant.checks import check, check_finite
 from gaitwright.plant.feet import Foot, find_foot, lowest, required, solid
 from gaitwright.plant.legs import BASE, Legs, find_legs, home_pose, to_body
 
@@ -19,8 +20,8 @@ AXES_TOLERANCE = 1e-3
 """Largest deviation [rad] of the hinges from: second square to the first, third parallel to the second."""
 BELLY = 0.2
 """The trunk's box reaches at most this far below the lowest hip, per length of the stretched leg."""
-ABSURD = 1e6
-"""No number of a robot is as large as this, in SI units."""
+SHORTEST_LINK = 1e-6
+"""A thigh or shank must be longer than this [m]."""
 
 
 class Leg(NamedTuple):
@@ -84,6 +85,8 @@ def derive_leg(m: mujoco.MjModel, legs: Legs, i: int) -> tuple[LegShape, Leg]:
     d, joints, name = legs.data, legs.joints[i], legs.names[i]
     frame, sign = leg_frame(d.xaxis[joints], name)
     anchors = d.xanchor[joints]
+    for joint, anchor in zip(HINGES, anchors, strict=True):
+        check_finite(f"the place of leg {name}, {joint},", anchor)
     foot = required(find_foot(m, d, np.flatnonzero(legs.owner == joints[2]), anchors[2]), name)
     limited = m.jnt_limited[joints].astype(bool)[:, None]
     q_min, q_max = np.where(limited, m.jnt_range[joints], (-math.pi, math.pi)).T
@@ -126,9 +129,13 @@ def offsets(anchors: np.ndarray, foot: Foot, frame: np.ndarray) -> np.ndarray:
 
 def posture(leg: LegShape, q_home: np.ndarray | None, name: str) -> tuple[np.ndarray, tuple[int, int]]:
     """Nominal foothold and branch of a leg. Raises `BadFile` where its lengths do not let it stand."""
-    for row, link in ((1, "thigh"), (2, "shank")):
-        if not np.hypot(leg.offset[row, 0], leg.offset[row, 2]) > 1e-6:
-            raise BadFile(f"leg {name}: its {link} has no length; expected its end off its hinge's axis")
+    for row, link, ends in ((1, "thigh", "hip 2 and knee"), (2, "shank", "knee and foot")):
+        length = float(np.hypot(leg.offset[row, 0], leg.offset[row, 2]))
+        if not length > SHORTEST_LINK:
+            raise BadFile(
+                f"leg {name}: its {link} has no length: {ends} are {length:.3g} m apart, seen along the axis "
+                f"of the knee; expected more than {SHORTEST_LINK:g} m"
+            )
     place = stance.nominal_foot(leg)
     branch = stance.nominal_branch(leg, place, q_home)
     if branch is None:
@@ -252,18 +259,6 @@ def box_corners(m: mujoco.MjModel, legs: Legs, geom: int) -> np.ndarray:
     centre, half = m.geom_aabb[geom].reshape(2, 3)
     corners = centre + half * np.array(np.meshgrid(*[(-1.0, 1.0)] * 3)).reshape(3, 8).T
     return to_body(d, legs.base, d.geom_xpos[geom] + corners @ d.geom_xmat[geom].reshape(3, 3).T)
-
-
-def check(robot: Robot) -> None:
-    """Raises `BadFile` where a number is not finite or absurd, or a mass makes no sense."""
-    for field, value in vars(robot).items():
-        if isinstance(value, np.ndarray | float) and not (np.abs(value) < ABSURD).all():
-            raise BadFile(f"{field} has a number that is not finite or not below {ABSURD:g} (SI units)")
-    if robot.base_mass <= 0.0:
-        raise BadFile("the floating body has no mass")
-    for name, masses in zip(robot.legs, robot.mass, strict=True):
-        if masses[1] <= 0.0 or masses[2] <= 0.0:
-            raise BadFile(f"leg {name} has a thigh or shank without mass: {masses.round(6).tolist()} kg")
 
 
 def outside_limits(robot: Robot, shapes: list[LegShape]) -> tuple[str, ...]:

@@ -4,7 +4,9 @@ Only what bears on the numbers of a robot is kept. Includes are spliced in here,
 text; meshes are still named, `plant/compiling.py` decides which of them are opened.
 """
 
+import math
 import xml.etree.ElementTree as ET
+from collections.abc import Iterator
 from pathlib import Path
 from xml.parsers import expat
 
@@ -33,8 +35,9 @@ MJCF_REFUSED = {"attach", "composite", "flexcomp"}
 URDF_SECTIONS = {"link", "joint", "mujoco"}
 URDF_MENDERS = {"balanceinertia", "boundmass", "boundinertia"}
 """MuJoCo's own remedies for the inertias of a URDF, in `<mujoco><compiler …/></mujoco>`."""
-NOT_NUMBERS = {"nan", "inf", "infinity"}
 URDF_DROPPED = {"visual", "mimic", "safety_controller", "calibration"}
+SHORTEST_AXIS = 1e-14
+"""An axis shorter than this has no direction, here as in MuJoCo."""
 
 
 def read_tree(path: Path) -> ET.Element:
@@ -48,16 +51,44 @@ def read_tree(path: Path) -> ET.Element:
         plain = plain_urdf(root)
     else:
         raise BadFile(f"its outermost element is <{root.tag}>; expected <mujoco> (MJCF) or <robot> (URDF)")
-    check_finite(plain)
+    check_numbers(plain)
     return plain
 
 
-def check_finite(root: ET.Element) -> None:
-    """Raises `BadFile` where an attribute holds a number that is none."""
-    for element in root.iter():
+def check_numbers(root: ET.Element) -> None:
+    """Raises `BadFile` where an attribute holds a number that is none, or a joint's axis has no length."""
+    for element, where in placed(root):
         for name, value in element.attrib.items():
-            if any(word.lower().strip("+-") in NOT_NUMBERS for word in value.split()):
-                raise BadFile(f"{name}={value!r} of <{element.tag}> is not finite")
+            if not all(map(is_finite, value.split())):
+                raise BadFile(f"{name}={value!r} of {where} is not finite")
+        axis = element.get("axis") or (element.get("xyz") if element.tag == "axis" else None)
+        if axis is not None and all(abs(x) < SHORTEST_AXIS for x in numbers_in(axis)):
+            raise BadFile(f"the axis {axis!r} of {where} has no length; expected the direction of the hinge")
+
+
+def placed(element: ET.Element, owner: str = "") -> Iterator[tuple[ET.Element, str]]:
+    """An element and all below it, each with the words that say where it is: itself or what it is inside."""
+    name = element.get("name")
+    where = f"{element.tag} {name!r}" if name else f"<{element.tag}>{owner}"
+    yield element, where
+    for child in element:
+        yield from placed(child, f" in {where}" if name else owner)
+
+
+def is_finite(word: str) -> bool:
+    """Whether a word of an attribute is a finite number, or no number."""
+    try:
+        return math.isfinite(float(word))
+    except ValueError:
+        return True
+
+
+def numbers_in(value: str) -> list[float]:
+    """The numbers of an attribute; if they are not numbers, one that is none: MuJoCo will say so."""
+    try:
+        return [float(word) for word in value.split()]
+    except ValueError:
+        return [math.nan]
 
 
 class Reader:
@@ -162,9 +193,7 @@ def plain_urdf(root: ET.Element) -> ET.Element:
     for compiler in root.findall("mujoco/compiler"):
         compiler.attrib = {name: value for name, value in compiler.attrib.items() if name in URDF_MENDERS}
     for limit in root.findall("joint/limit"):
-        limit.attrib = {
-            name: value for name, value in limit.attrib.items() if value.strip("+-") not in NOT_NUMBERS
-        }
+        limit.attrib = {name: value for name, value in limit.attrib.items() if is_finite(value)}
     floating = [joint for joint in root.findall("joint") if joint.get("type") == "floating"]
     if len(floating) == 1:
         keep_below(root, floating[0])

@@ -1,12 +1,12 @@
 """Robot → URDF text, so that a peer computes with the very numbers that we do."""
 
-import math
 from collections.abc import Iterable
 from xml.etree import ElementTree
 
 import numpy as np
 from jaxtyping import Float
 
+from gaitwright.geometry import roll_pitch_yaw
 from gaitwright.model.robot import Robot
 
 PARTS = ("hip", "thigh", "calf")
@@ -76,15 +76,6 @@ def _joint(root: ElementTree.Element, name: str, kind: str, parent: str, child: 
     ElementTree.SubElement(joint, "parent", link=parent)
     ElementTree.SubElement(joint, "child", link=child)
     return joint
-
-
-def roll_pitch_yaw(turn: Float[np.ndarray, "3 3"]) -> tuple[float, float, float]:
-    """Angles [rad] with turn = Rz(yaw) Ry(pitch) Rx(roll); yaw is 0 where the pitch is ±90°."""
-    level = math.hypot(turn[0, 0], turn[1, 0])
-    pitch = math.atan2(-turn[2, 0], level)
-    if level < 1e-9:
-        return math.atan2(-turn[1, 2], turn[1, 1]), pitch, 0.0
-    return math.atan2(turn[2, 1], turn[2, 2]), pitch, math.atan2(turn[1, 0], turn[0, 0])
 
 
 def _text(numbers: Iterable[float]) -> str:

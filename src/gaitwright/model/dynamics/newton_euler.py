@@ -3,16 +3,35 @@
 Out along each leg go angular velocities and accelerations, in come forces and torques; O(links), no
 mass matrix. Gravity enters as an upward acceleration of the base. Every vector is in the axes of its
 own link, so that a hinge costs one plane turn.
+
+Accelerations are linear in q̈ and angular velocities do not depend on it. So a leg's outward pass splits
+exactly: `bias_motion` runs it with q̈ = 0, `with_accelerations` adds what q̈ adds. A caller that first
+needs the bias (to find q̈ from a wanted acceleration of the foot) thereby goes outward once.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
+from jaxtyping import Float
 
 from gaitwright.compiled import kernel
-from gaitwright.geometry import add, cross, dot, scale, sub, times, times_t, turn_x, turn_y, vec
+from gaitwright.geometry import add, cross, dot, scale, sub, times_t, turn_x, turn_y, vec
+from gaitwright.model.dynamics.leg import (
+    base_at,
+    foot_and_columns,
+    leg_at,
+    leg_of,
+    leg_turns,
+    to_leg_frame,
+)
+from gaitwright.model.dynamics.matrices import apply, apply_t, rows, vec_at, write
+
+NO_LOAD = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+"""Force and moment on a foot in the air."""
 
 
+# --- outward -------------------------------------------------------------------------------------
 @kernel
 def carried(a, w, wd, r):
     """Acceleration of a point at `r` on a body whose origin accelerates with `a` (eq. 4-12)."""
@@ -20,74 +39,103 @@ def carried(a, w, wd, r):
 
 
 @kernel
-def hinge_motion(w, wd, axis_rate, axis_acceleration):
-    """Angular velocity and acceleration past a hinge; all in the child's axes (eq. 4-10, 4-11)."""
-    return add(w, axis_rate), add(add(wd, axis_acceleration), cross(w, axis_rate))
+def hinge_motion(w, wd, axis_rate):
+    """Angular velocity and acceleration past a hinge that keeps its rate; child's axes (eq. 4-10, 4-11)."""
+    return add(w, axis_rate), add(wd, cross(w, axis_rate))
 
 
 @kernel
-def leg_motion(q, qd, qdd, offset, sign, w, wd, a):
-    """Angular velocity, angular and linear acceleration of the three links, each in its own axes.
+def motion_at_hip(leg, w, wd, a):
+    """Motion of the base at a leg's first hinge, apply into the leg frame."""
+    at_hip = carried(a, w, wd, leg.hip)
+    return apply_t(leg.frame, w), apply_t(leg.frame, wd), apply_t(leg.frame, at_hip)
 
-    `w`, `wd`, `a` are those of the base at the first hinge, in the leg frame. The fourth item is the
-    acceleration of the foot, leg frame.
+
+@kernel
+def bias_motion(turns, qd, offset, sign, w, wd, a):
+    """Angular velocity, angular and linear acceleration of the three links with q̈ = 0, each in its axes.
+
+    `turns`: `leg_turns` of the angles; `w`, `wd`, `a`: `motion_at_hip`.
     """
-    c1, s1 = math.cos(q[0]), math.sin(q[0])
-    c2, s2 = math.cos(q[1]), math.sin(q[1])
-    c3, s3 = math.cos(q[2]), sign * math.sin(q[2])
-    w1, wd1 = hinge_motion(turn_x(c1, -s1, w), turn_x(c1, -s1, wd), (qd[0], 0.0, 0.0), (qdd[0], 0.0, 0.0))
+    (c1, s1), (c2, s2), (c3, s3) = turns
+    w1, wd1 = hinge_motion(turn_x(c1, -s1, w), turn_x(c1, -s1, wd), (qd[0], 0.0, 0.0))
     a1 = turn_x(c1, -s1, a)
-    a2 = turn_y(c2, -s2, carried(a1, w1, wd1, vec(offset[0])))
-    w2, wd2 = hinge_motion(turn_y(c2, -s2, w1), turn_y(c2, -s2, wd1), (0.0, qd[1], 0.0), (0.0, qdd[1], 0.0))
-    a3 = turn_y(c3, -s3, carried(a2, w2, wd2, vec(offset[1])))
-    w3, wd3 = hinge_motion(
-        turn_y(c3, -s3, w2), turn_y(c3, -s3, wd2), (0.0, sign * qd[2], 0.0), (0.0, sign * qdd[2], 0.0)
+    a2 = turn_y(c2, -s2, carried(a1, w1, wd1, offset[0]))
+    w2, wd2 = hinge_motion(turn_y(c2, -s2, w1), turn_y(c2, -s2, wd1), (0.0, qd[1], 0.0))
+    a3 = turn_y(c3, -s3, carried(a2, w2, wd2, offset[1]))
+    w3, wd3 = hinge_motion(turn_y(c3, -s3, w2), turn_y(c3, -s3, wd2), (0.0, sign * qd[2], 0.0))
+    return (w1, wd1, a1), (w2, wd2, a2), (w3, wd3, a3)
+
+
+@kernel
+def with_accelerations(turns, bias, qdd, offset, sign):
+    """The `bias_motion` with what the joint accelerations add to it: the motion with q̈."""
+    _, (c2, s2), (c3, s3) = turns
+    (w1, wd1, a1), (w2, wd2, a2), (w3, wd3, a3) = bias
+    more1 = (qdd[0], 0.0, 0.0)
+    pull2 = turn_y(c2, -s2, cross(more1, offset[0]))
+    more2 = add(turn_y(c2, -s2, more1), (0.0, qdd[1], 0.0))
+    pull3 = turn_y(c3, -s3, add(pull2, cross(more2, offset[1])))
+    more3 = add(turn_y(c3, -s3, more2), (0.0, sign * qdd[2], 0.0))
+    return (
+        (w1, add(wd1, more1), a1),
+        (w2, add(wd2, more2), add(a2, pull2)),
+        (w3, add(wd3, more3), add(a3, pull3)),
     )
-    foot = carried(a3, w3, wd3, vec(offset[2]))
-    foot = turn_x(c1, s1, turn_y(c2, s2, turn_y(c3, s3, foot)))
-    return (w1, wd1, a1), (w2, wd2, a2), (w3, wd3, a3), foot
 
 
+@kernel
+def links_motion(leg, turns, w, wd, a, qd, qdd):
+    """Motion of the three links for that of the base (base axes) and of the joints, each in its axes."""
+    w0, wd0, a0 = motion_at_hip(leg, w, wd, a)
+    bias = bias_motion(turns, qd, leg.offset, leg.sign, w0, wd0, a0)
+    return with_accelerations(turns, bias, qdd, leg.offset, leg.sign)
+
+
+@kernel
+def foot_acceleration(turns, motion, offset):
+    """Acceleration of the foot centre, leg frame, from the motion of the links."""
+    w, wd, a = motion[2]
+    return to_leg_frame(turns, carried(a, w, wd, offset[2]))
+
+
+# --- inward --------------------------------------------------------------------------------------
 @kernel
 def link_load(motion, mass, com, inertia):
     """Force and moment about its hinge that the motion of one link asks for (eq. 4-13 … 4-15)."""
     w, wd, a = motion
     force = scale(mass, carried(a, w, wd, com))
-    moment = add(times(inertia, wd), cross(w, times(inertia, w)))
+    moment = add(apply(inertia, wd), cross(w, apply(inertia, w)))
     return force, add(moment, cross(com, force))
 
 
 @kernel
-def leg_load(q, qdd, offset, sign, mass, com, inertia, armature, motion):
-    """Force and moment at the first hinge (leg frame) and the three joint torques (eq. 4-16 … 4-18).
+def leg_load(turns, qdd, leg, motion, ground):
+    """Wrench about the base origin (base axes, eq. 4-24) and the three joint torques (eq. 4-16 … 4-18).
 
-    They are what the leg needs from the base and the motors to move as `motion` says, with no load on
-    the foot.
+    They are what the leg needs from the base and the motors to move as `motion` says. `ground`: the force
+    on the foot and its moment about the third hinge, in the last link's axes (`NO_LOAD` in the air).
     """
-    c1, s1 = math.cos(q[0]), math.sin(q[0])
-    c2, s2 = math.cos(q[1]), math.sin(q[1])
-    c3, s3 = math.cos(q[2]), sign * math.sin(q[2])
-    f3, g3 = link_load(motion[2], mass[2], vec(com[2]), inertia[2])
+    (c1, s1), (c2, s2), (c3, s3) = turns
+    f3, g3 = link_load(motion[2], leg.mass[2], leg.com[2], leg.inertia[2])
+    f3, g3 = sub(f3, ground[0]), sub(g3, ground[1])
     f, g = turn_y(c3, s3, f3), turn_y(c3, s3, g3)
-    f2, g2 = link_load(motion[1], mass[1], vec(com[1]), inertia[1])
-    f2, g2 = add(f2, f), add(g2, add(g, cross(vec(offset[1]), f)))
+    f2, g2 = link_load(motion[1], leg.mass[1], leg.com[1], leg.inertia[1])
+    f2, g2 = add(f2, f), add(g2, add(g, cross(leg.offset[1], f)))
     f, g = turn_y(c2, s2, f2), turn_y(c2, s2, g2)
-    f1, g1 = link_load(motion[0], mass[0], vec(com[0]), inertia[0])
-    f1, g1 = add(f1, f), add(g1, add(g, cross(vec(offset[0]), f)))
+    f1, g1 = link_load(motion[0], leg.mass[0], leg.com[0], leg.inertia[0])
+    f1, g1 = add(f1, f), add(g1, add(g, cross(leg.offset[0], f)))
     tau = (
-        g1[0] + armature[0] * qdd[0],
-        g2[1] + armature[1] * qdd[1],
-        sign * g3[1] + armature[2] * qdd[2],
+        g1[0] + leg.armature[0] * qdd[0],
+        g2[1] + leg.armature[1] * qdd[1],
+        leg.sign * g3[1] + leg.armature[2] * qdd[2],
     )
-    return turn_x(c1, s1, f1), turn_x(c1, s1, g1), tau
+    force = apply(leg.frame, turn_x(c1, s1, f1))
+    moment = add(apply(leg.frame, turn_x(c1, s1, g1)), cross(leg.hip, force))
+    return force, moment, tau
 
 
-@kernel
-def hip_motion(leg_frame, hip, w, wd, a):
-    """Motion of the base at a first hinge, turned into the leg frame."""
-    return times_t(leg_frame, w), times_t(leg_frame, wd), times_t(leg_frame, carried(a, w, wd, hip))
-
-
+# --- the whole robot -----------------------------------------------------------------------------
 @kernel
 def inverse_dynamics(model, w, wd, a, q, qd, qdd):
     """Wrench on the base and joint torques that a motion asks for, with no load on the feet.
@@ -98,27 +146,85 @@ def inverse_dynamics(model, w, wd, a, q, qd, qdd):
     """
     n = q.shape[0]
     tau = np.empty((n, 3))
-    force, moment = link_load((w, wd, a), model.base_mass[0], vec(model.base_com), model.base_inertia)
-    for leg in range(n):
-        frame, hip = model.leg_frame[leg], vec(model.hip[leg])
-        w0, wd0, a0 = hip_motion(frame, hip, w, wd, a)
-        m1, m2, m3, _ = leg_motion(q[leg], qd[leg], qdd[leg], model.offset[leg], model.sign[leg], w0, wd0, a0)
-        f, g, t = leg_load(
-            q[leg],
-            qdd[leg],
-            model.offset[leg],
-            model.sign[leg],
-            model.mass[leg],
-            model.com[leg],
-            model.inertia[leg],
-            model.armature[leg],
-            (m1, m2, m3),
-        )
-        f, g = times(frame, f), times(frame, g)
-        force = add(force, f)
-        moment = add(moment, add(g, cross(hip, f)))
-        tau[leg, 0], tau[leg, 1], tau[leg, 2] = t
+    force, moment = link_load((w, wd, a), model.base_mass[0], vec(model.base_com), rows(model.base_inertia))
+    for k in range(n):
+        leg = leg_of(model, k)
+        turns = leg_turns(q[k], leg.sign)
+        motion = links_motion(leg, turns, w, wd, a, vec(qd[k]), vec(qdd[k]))
+        f, g, t = leg_load(turns, vec(qdd[k]), leg, motion, NO_LOAD)
+        force, moment = add(force, f), add(moment, g)
+        tau[k, 0], tau[k, 1], tau[k, 2] = t
     return force, moment, tau
+
+
+class Dynamics(NamedTuple):
+    """What a motion asks for, and where the feet are; base axes, arrays for `legs` legs."""
+
+    wrench: np.ndarray
+    """`(6,)` force [N] and moment about the base origin [N·m] on the base, feet unloaded."""
+    tau: np.ndarray
+    """`(legs, 3)` joint torques [N·m], feet unloaded."""
+    feet: np.ndarray
+    """`(legs, 3)` base origin → foot centre [m]."""
+    columns: np.ndarray
+    """`(legs, 3, 3)` rows: velocity of the foot centre per joint rate (columns of its Jacobian) [m]."""
+
+
+@kernel
+def dynamics_in(numbers):
+    """The `Dynamics` packed in one array, as views."""
+    n = (numbers.size - 6) // 15
+    return Dynamics(
+        numbers[:6],
+        numbers[6 : 6 + 3 * n].reshape(n, 3),
+        numbers[6 + 3 * n : 6 + 6 * n].reshape(n, 3),
+        numbers[6 + 6 * n :].reshape(n, 3, 3),
+    )
+
+
+def state_numbers(
+    w: Float[np.ndarray, "3"],
+    wd: Float[np.ndarray, "3"],
+    a: Float[np.ndarray, "3"],
+    q: Float[np.ndarray, "legs 3"],
+    qd: Float[np.ndarray, "legs 3"],
+    qdd: Float[np.ndarray, "legs 3"],
+) -> Float[np.ndarray, "numbers"]:
+    """The arguments of `inverse_dynamics` in one array, as `dynamics_of` takes them."""
+    return np.concatenate([w, wd, a, q.ravel(), qd.ravel(), qdd.ravel()])
+
+
+@kernel
+def dynamics_of(packed, numbers):
+    """The packed `Dynamics` of a packed robot for `state_numbers`: inverse dynamics, feet and Jacobians.
+
+    The same figures as `inverse_dynamics`; two arrays in and one out cost far less than its arguments do.
+    """
+    n = int(packed[0])
+    w, wd, a = vec_at(numbers, 0), vec_at(numbers, 3), vec_at(numbers, 6)
+    out = np.empty(6 + 15 * n)
+    mass, com, inertia = base_at(packed)
+    force, moment = link_load((w, wd, a), mass, com, inertia)
+    for k in range(n):
+        leg = leg_at(packed, k)
+        i = 9 + 3 * k
+        turns = leg_turns(vec_at(numbers, i), leg.sign)
+        qd, qdd = vec_at(numbers, i + 3 * n), vec_at(numbers, i + 6 * n)
+        w0, wd0, a0 = motion_at_hip(leg, w, wd, a)  # `links_motion`, written out: an eighth faster
+        bias = bias_motion(turns, qd, leg.offset, leg.sign, w0, wd0, a0)
+        motion = with_accelerations(turns, bias, qdd, leg.offset, leg.sign)
+        f, g, tau = leg_load(turns, qdd, leg, motion, NO_LOAD)
+        force, moment = add(force, f), add(moment, g)
+        foot, c1, c2, c3 = foot_and_columns(turns, leg.offset, leg.sign)
+        write(out, 6 + 3 * k, tau)
+        write(out, 6 + 3 * n + 3 * k, add(leg.hip, apply(leg.frame, foot)))
+        at = 6 + 6 * n + 9 * k
+        write(out, at, apply(leg.frame, c1))
+        write(out, at + 3, apply(leg.frame, c2))
+        write(out, at + 6, apply(leg.frame, c3))
+    write(out, 0, force)
+    write(out, 3, moment)
+    return out
 
 
 @kernel
@@ -136,5 +242,35 @@ def solve_columns(c1, c2, c3, b):
 
 
 @kernel
-def minus(a):
-    return sub((0.0, 0.0, 0.0), a)
+def joint_accelerations(packed, w, wd, a, q, qd, feet_a):
+    """q̈ `(legs, 3)` that gives the foot centres wanted accelerations: J q̈ = a_foot − (what q̈ = 0 gives).
+
+    `feet_a`: `(legs, 3)`, base axes, *less gravity* as `a`; the rest as for `inverse_dynamics`.
+    """
+    n = q.shape[0]
+    qdd = np.empty((n, 3))
+    for k in range(n):
+        leg = leg_at(packed, k)
+        turns = leg_turns(q[k], leg.sign)
+        w0, wd0, a0 = motion_at_hip(leg, w, wd, a)
+        bias = bias_motion(turns, vec(qd[k]), leg.offset, leg.sign, w0, wd0, a0)
+        short = sub(apply_t(leg.frame, vec(feet_a[k])), foot_acceleration(turns, bias, leg.offset))
+        _, c1, c2, c3 = foot_and_columns(turns, leg.offset, leg.sign)
+        write(qdd[k], 0, solve_columns(c1, c2, c3, short))
+    return qdd
+
+
+# --- one leg from arrays -------------------------------------------------------------------------
+@kernel
+def hip_motion(leg_frame, hip, w, wd, a):
+    """`motion_at_hip` for a leg frame given as an array."""
+    return times_t(leg_frame, w), times_t(leg_frame, wd), times_t(leg_frame, carried(a, w, wd, hip))
+
+
+@kernel
+def leg_motion(q, qd, qdd, offset, sign, w, wd, a):
+    """Motion of the three links and acceleration of the foot (leg frame) in one go, from arrays."""
+    turns, links = leg_turns(q, sign), rows(offset)
+    bias = bias_motion(turns, qd, links, sign, w, wd, a)
+    m1, m2, m3 = with_accelerations(turns, bias, qdd, links, sign)
+    return m1, m2, m3, foot_acceleration(turns, (m1, m2, m3), links)

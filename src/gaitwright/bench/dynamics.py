@@ -1,0 +1,166 @@
+"""Claim: our dynamics are exact, and no slower than Pinocchio's, called from Python in the same run."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from statistics import median
+from time import perf_counter_ns
+
+import numpy as np
+
+from gaitwright.bench.figure import Figure, Wanted, at_most
+from gaitwright.bench.oracles import ball_model, hinge_model, pinocchio
+from gaitwright.bench.session import Session
+from gaitwright.geometry import GRAVITY, rotation
+from gaitwright.model.dynamics.armstrong import packed_accelerations
+from gaitwright.model.dynamics.newton_euler import dynamics_in, dynamics_of, state_numbers
+from gaitwright.model.dynamics.tree import ball_rotations, ball_tree, packed
+from gaitwright.model.robot import Robot
+from gaitwright.plant.models import load_robot
+
+ROUNDS, CALLS = 200, 100
+QUICK_ROUNDS = 20
+STATES = 200
+"""Random states of each robot whose answers are compared."""
+NOTE = (
+    "Dynamics: every round times each contender once, from Python, in turns; a ratio is the median of the "
+    "ratios of all rounds. Ours gives wrench, torques, feet and Jacobians in one call; Pinocchio's RNEA "
+    "gives wrench and torques. Pinocchio is a test dependency: without it ratios are missing."
+)
+
+Calls = Mapping[str, Callable[[], object]]
+
+
+def measure(session: Session) -> Iterator[Figure]:
+    """Ratios of times, growth with the number of legs, and agreement on random states."""
+    pin = pinocchio()
+    rounds = QUICK_ROUNDS if session.quick else ROUNDS
+    go2, thesis = load_robot("go2"), load_robot("thesis")
+    session.voice.say("dynamics: timing")
+    yield from inverse(pin, go2, rounds)
+    yield from direct(pin, thesis, rounds)
+    yield growth(rounds)
+    if pin is None:
+        return
+    session.voice.say("dynamics: comparing answers")
+    for robot in (go2, thesis, load_robot("hexapod")):
+        yield agreement(pin, robot, session.seed)
+
+
+def inverse(pin, robot: Robot, rounds: int) -> Iterator[Figure]:
+    """Inverse dynamics with feet and Jacobians over Pinocchio's recursion alone."""
+    state = any_state(robot, np.random.default_rng(0))
+    calls: dict[str, Callable[[], object]] = {"ours": lambda: dynamics_of(robot.packed, state)}
+    if pin:
+        model = hinge_model(robot)
+        data, q, v, a = model.createData(), *pinocchio_state(pin, robot, state)
+        calls["theirs"] = lambda: pin.rnea(model, data, q, v, a)
+    what = f"{robot.name}: inverse dynamics with feet and Jacobians over Pinocchio's RNEA"
+    yield from compared(what, calls, rounds, at_most(1.0))
+
+
+def direct(pin, robot: Robot, rounds: int) -> Iterator[Figure]:
+    """Armstrong's recursion over Pinocchio's articulated bodies, on the same ball-jointed tree."""
+    tree, _ = ball_tree(robot)
+    n = tree.mass.size
+    rng = np.random.default_rng(0)
+    R = ball_rotations(robot, rotation(rng.normal(size=4)), rng.uniform(-1.0, 1.0, (robot.n, 3)))
+    numbers, motion = packed(tree), np.concatenate([R.ravel(), rng.normal(size=3 * n)])
+    load = np.concatenate([rng.normal(size=9 * n), [0.0, 0.0, -GRAVITY]])
+    calls: dict[str, Callable[[], object]] = {"ours": lambda: packed_accelerations(numbers, motion, load)}
+    if pin:
+        model = ball_model(tree, load[-3:])
+        data, q, v = model.createData(), pin.randomConfiguration(bounded(model)), rng.normal(size=model.nv)
+        tau = rng.normal(size=model.nv)
+        calls["theirs"] = lambda: pin.aba(model, data, q, v, tau)
+    what = f"{robot.name}, {n} links: Armstrong's recursion over Pinocchio's ABA"
+    yield from compared(what, calls, rounds, at_most(1.0))
+
+
+def bounded(model):
+    """The model with places from which a configuration can be drawn."""
+    model.lowerPositionLimit[:3], model.upperPositionLimit[:3] = -1.0, 1.0
+    return model
+
+
+def growth(rounds: int) -> Figure:
+    """What eight legs cost over four."""
+    four = load_robot("go2")
+    eight = with_twice_the_legs(four)
+    states = {robot.n: any_state(robot, np.random.default_rng(0)) for robot in (four, eight)}
+    times = interleaved(
+        {
+            "four": lambda: dynamics_of(four.packed, states[4]),
+            "eight": lambda: dynamics_of(eight.packed, states[8]),
+        },
+        rounds,
+    )
+    each = [b / a for a, b in zip(times["four"], times["eight"], strict=True)]
+    return Figure("dynamics of eight legs over four", median(each), "×", at_most(2.5), rounds)
+
+
+def with_twice_the_legs(robot: Robot) -> Robot:
+    """A robot that has every leg of another one twice."""
+    own = {name: getattr(robot, name) for name in robot.arrays._fields[3:-1]}
+    twice = {name: np.concatenate([value, value]) for name, value in own.items()}
+    limits = {
+        name: np.tile(getattr(robot, name), (2, 1)) for name in ("damping", "friction", "q_min", "q_max")
+    }
+    return replace(robot, legs=(*robot.legs, *(f"{leg}2" for leg in robot.legs)), **twice, **limits)
+
+
+# --- timing ----------------------------------------------------------------------------------------
+def interleaved(calls: Calls, rounds: int) -> dict[str, list[float]]:
+    """µs per call of every contender in every round, the order turned round each time."""
+    for call in calls.values():
+        call()
+    times: dict[str, list[float]] = {name: [] for name in calls}
+    for number in range(rounds):
+        for name in list(calls)[:: 1 if number % 2 else -1]:
+            call, began = calls[name], perf_counter_ns()
+            for _ in range(CALLS):
+                call()
+            times[name].append((perf_counter_ns() - began) / 1e3 / CALLS)
+    return times
+
+
+def compared(what: str, calls: Calls, rounds: int, wanted: Wanted) -> Iterator[Figure]:
+    """Our time in µs, and the ratio where the peer is there."""
+    times = interleaved(calls, rounds)
+    ours = median(times["ours"])
+    if "theirs" not in times:
+        yield Figure(what, float("nan"), "×", wanted, 0, f"ours {ours:.1f} µs; Pinocchio is not installed")
+        return
+    each = [a / b for a, b in zip(times["ours"], times["theirs"], strict=True)]
+    note = f"{ours:.1f} µs over {median(times['theirs']):.1f} µs"
+    yield Figure(what, median(each), "×", wanted, rounds, note, {"each_round": each})
+
+
+# --- agreement -------------------------------------------------------------------------------------
+def any_state(robot: Robot, rng: np.random.Generator) -> np.ndarray:
+    """A robot in rapid motion, as `dynamics_of` reads it."""
+    w, wd, a = rng.normal(0.0, 3.0, (3, 3))
+    q, qd, qdd = rng.normal(0.0, 2.0, (3, robot.n, 3))
+    return state_numbers(w, wd, a, q, qd, qdd)
+
+
+def pinocchio_state(pin, robot: Robot, state: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """q, v and a of the same state, base upright at the origin and at rest but for its spin."""
+    w, wd, a = state[:9].reshape(3, 3)
+    q, qd, qdd = state[9:].reshape(3, -1)
+    upright = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
+    true = a - (0.0, 0.0, GRAVITY)  # ours is less gravity
+    return np.append(upright, q), np.concatenate([np.zeros(3), w, qd]), np.concatenate([true, wd, qdd])
+
+
+def agreement(pin, robot: Robot, seed: int) -> Figure:
+    """Largest relative difference from Pinocchio over random states."""
+    model = hinge_model(robot)
+    data, rng, worst = model.createData(), np.random.default_rng(seed), 0.0
+    for _ in range(STATES):
+        state = any_state(robot, rng)
+        ours = dynamics_in(dynamics_of(robot.packed, state))
+        theirs = pin.rnea(model, data, *pinocchio_state(pin, robot, state))
+        both = np.concatenate([ours.wrench, ours.tau.ravel()])
+        worst = max(worst, float(np.abs(both - theirs).max() / np.abs(theirs).max()))
+    what = f"{robot.name}: inverse dynamics against Pinocchio, largest relative difference"
+    return Figure(what, worst, "", at_most(1e-10), STATES)

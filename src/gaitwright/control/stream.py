@@ -1,0 +1,127 @@
+"""Moments in, torques out, many at once: the numerical controller as a stream (row N5; thesis 4.5).
+
+Two stages, as in the thesis's pipeline: the dynamics of every moment stand alone and go to all cores in
+chunks; the distribution of a moment follows that of the one before it, so each job keeps its order and jobs
+go side by side. Jacobians stand in for the thesis's probes. Every answer is the same, bit for bit, as that of
+one tick after another.
+"""
+
+import os
+from collections.abc import Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from gaitwright.compiled import kernel_nogil
+from gaitwright.control.demand import demand
+from gaitwright.control.moments import BODY, Moments, moment_of
+from gaitwright.control.numerical import distributed, effort_of
+from gaitwright.errors import WrongUse
+from gaitwright.model.robot import Robot
+
+CHUNK = 512
+"""Moments whose dynamics are worked out in one go."""
+
+
+@dataclass(frozen=True)
+class Job:
+    """A robot and the moments it goes through, in the order of time."""
+
+    robot: Robot
+    moments: Moments
+    start: Float[np.ndarray, "legs 3"] | None = None
+    """Foot forces before the first moment [N], world axes; none where not given."""
+
+
+@dataclass(frozen=True)
+class Efforts:
+    """What a job comes to, moment by moment; as in `Torques`."""
+
+    tau: Float[np.ndarray, "steps legs 3"]
+    forces_w: Float[np.ndarray, "steps legs 3"]
+    prices: Float[np.ndarray, "steps legs limits"]
+    residual: Float[np.ndarray, "steps"]
+    code: Int[np.ndarray, "steps"]
+    """0 where the distribution was solved."""
+
+
+@kernel_nogil
+def work_out(packed, moments, every, out):
+    """First stage: the packed loads of some moments, worked out at every `every`-th and held in between."""
+    for i in range(moments.shape[0]):
+        out[i] = demand(packed, moment_of(moments[i])) if i % every == 0 else out[i - 1]
+
+
+@kernel_nogil
+def share_out(packed, moments, loads, before, out):
+    """Second stage: packed efforts of some moments in turn; `before` (changed in place): the last forces."""
+    for i in range(moments.shape[0]):
+        out[i] = distributed(packed, loads[i], moment_of(moments[i]), before)
+        before[:] = effort_of(out[i]).forces_w
+
+
+def stream(jobs: Sequence[Job], every: int = 1, cores: int | None = None) -> list[Efforts]:
+    """All torques of all jobs, over all cores.
+
+    `every`: moments between two evaluations of the dynamics; more than 1 holds accelerations, Jacobians and
+    free torques in between, which straight-line motion allows (thesis 4.5), at an error the bench shows.
+    Raises `WrongUse` for moments that do not fit their robot or are not finite.
+    """
+    for number, job in enumerate(jobs):
+        check(number, job)
+    if every < 1:
+        raise WrongUse(f"the dynamics are worked out at every n-th moment, n at least 1, not {every}")
+    threads = cores or os.cpu_count() or 1
+    with ThreadPoolExecutor(threads) as pool:
+        # First stages are queued before second ones, so that none of these waits for a place in the queue.
+        first = [begin(pool, job, every) for job in jobs]
+        second = [pool.submit(finish, job, chunks) for job, chunks in zip(jobs, first, strict=True)]
+        return [future.result() for future in second]
+
+
+Chunk = tuple[slice, Future[Float[np.ndarray, "steps numbers"]]]
+
+
+def begin(pool: ThreadPoolExecutor, job: Job, every: int) -> list[Chunk]:
+    """Starts the first stage of a job, chunk by chunk."""
+    length = -(-CHUNK // every) * every  # chunks begin where the dynamics are worked out
+    starts = range(0, len(job.moments), length)
+    return [(slice(i, i + length), pool.submit(loads, job, slice(i, i + length), every)) for i in starts]
+
+
+def loads(job: Job, part: slice, every: int) -> Float[np.ndarray, "steps numbers"]:
+    """The first stage of some moments."""
+    moments = job.moments[part]
+    out = np.empty((len(moments), 6 + 24 * job.robot.n))
+    work_out(job.robot.packed, moments, every, out)
+    return out
+
+
+def finish(job: Job, chunks: Sequence[Chunk]) -> Efforts:
+    """The second stage of a job, each chunk when its first stage is done."""
+    n, steps = job.robot.n, len(job.moments)
+    before = np.zeros((n, 3)) if job.start is None else job.start.copy()
+    out = np.empty((steps, 3 + 15 * n))
+    for part, future in chunks:
+        share_out(job.robot.packed, job.moments[part], future.result(), before, out[part])
+    return Efforts(
+        out[:, 3 : 3 + 3 * n].reshape(steps, n, 3),
+        out[:, 3 + 3 * n : 3 + 6 * n].reshape(steps, n, 3),
+        out[:, 3 + 6 * n :].reshape(steps, n, 9),
+        out[:, 0],
+        out[:, 1].astype(np.int64),
+    )
+
+
+def check(number: int, job: Job) -> None:
+    """`WrongUse` where a job's moments do not fit its robot."""
+    width = BODY + 17 * job.robot.n
+    shape = job.moments.shape
+    if shape[1] != width:
+        legs = f"{job.robot.name} has {job.robot.n} legs, so {width} numbers a moment"
+        raise WrongUse(f"job {number}: {legs}, not {shape[1]}")
+    bad = ~np.isfinite(job.moments).all(axis=1)
+    if bad.any():
+        raise WrongUse(f"job {number}: moment {int(bad.argmax())} holds a number that is not finite")

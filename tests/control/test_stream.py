@@ -1,0 +1,130 @@
+"""A stream of moments gives what one tick after another gives, bit for bit."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gaitwright.control.certificate import explain, felt_limits
+from gaitwright.control.moments import moment_of, moments_of, row
+from gaitwright.control.numerical import NumericalController
+from gaitwright.control.stream import CHUNK, Efforts, Job, stream
+from gaitwright.errors import WrongUse
+from gaitwright.locomotion import Brain, Lap, trip
+from gaitwright.model.robot import Robot
+from gaitwright.model.scene import load_scene
+from gaitwright.plant.simulation import MujocoPlant
+from gaitwright.signals import Mission, Torques
+from gaitwright.skills.chooser import fixed_skill
+from oracles import robot_called
+
+
+def laps(name: str, skill: str, speed: float, seconds: float) -> list[Lap]:
+    robot, scene = robot_called(name), load_scene("flat")
+    brain = Brain.of(robot, scene, fixed_skill(robot, skill, speed, 0.0, 0.0, "numerical"))
+    return list(trip(brain, MujocoPlant(robot, scene), Mission(()), seconds))
+
+
+def job_of(robot: Robot, walked: list[Lap]) -> Job:
+    return Job(robot, moments_of([lap.sensed for lap in walked], [lap.target for lap in walked]))
+
+
+def tick_by_tick(robot: Robot, walked: list[Lap], method: str) -> list[Torques]:
+    controller, done = NumericalController(robot, method), []
+    for lap in walked:
+        done.append(controller.torques(lap.target, lap.sensed, done[-1] if done else None))
+    return done
+
+
+@pytest.fixture(scope="module")
+def trot() -> list[Lap]:
+    return laps("dog", "trot", 0.4, 2.2)
+
+
+def same(efforts: Efforts, ticks: list[Torques]) -> bool:
+    return all(
+        np.array_equal(getattr(efforts, name), [getattr(t, name) for t in ticks])
+        for name in ("tau", "forces_w", "prices", "residual")
+    )
+
+
+@pytest.mark.parametrize("cores", [1, 2, 5])
+def test_many_jobs_at_once_equal_one_tick_at_a_time(trot: list[Lap], cores: int) -> None:
+    dog, bug = robot_called("dog"), robot_called("insect")
+    crawl = laps("insect", "walk", 0.05, 0.6)
+    assert len(trot) > 2 * CHUNK, "more than one chunk"
+    jobs = [job_of(dog, trot), job_of(bug, crawl), job_of(dog, trot[:7])]
+    first, second, third = stream(jobs, cores=cores)
+    assert same(first, tick_by_tick(dog, trot, "qp"))
+    assert same(second, tick_by_tick(bug, crawl, "qp"))
+    assert same(third, tick_by_tick(dog, trot[:7], "qp"))
+
+
+def test_forces_before_the_first_moment_count(trot: list[Lap]) -> None:
+    dog = robot_called("dog")
+    whole = stream([job_of(dog, trot)])[0]
+    rest = replace(job_of(dog, trot[500:]), start=whole.forces_w[499])
+    np.testing.assert_array_equal(stream([rest])[0].tau, whole.tau[500:])
+
+
+def test_held_dynamics_cost_accuracy_and_only_that(trot: list[Lap]) -> None:
+    job = job_of(robot_called("dog"), trot)
+    exact = stream([job])[0].tau
+    worse = [float(np.sqrt(np.mean((stream([job], every=n)[0].tau - exact) ** 2))) for n in (1, 2, 8, 32)]
+    assert worse[0] == 0.0 and worse == sorted(worse) and worse[1] < 0.1 * worse[3]
+
+
+def test_a_row_holds_all_of_a_moment(trot: list[Lap]) -> None:
+    lap = trot[100]
+    moment = moment_of(row(lap.sensed, lap.target))
+    s, t = lap.sensed, lap.target
+    for mine, theirs in [
+        (moment.position, s.position_w), (moment.orientation, s.orientation_wb),
+        (moment.velocity, s.velocity_w),
+        (moment.spin_b, s.angular_velocity_b), (moment.q, s.q), (moment.qd, s.qd), (moment.stance, t.stance),
+        (moment.share, t.share), (moment.normal, t.normal_w), (moment.want_p, t.position_w),
+        (moment.want_v, t.velocity_w), (moment.want_a, t.acceleration_w), (moment.want_r, t.rotation_wb),
+        (moment.want_w, t.angular_velocity_w), (moment.want_wd, t.angular_acceleration_w),
+        (moment.feet_p, t.feet_w), (moment.feet_v, t.feet_velocity_w), (moment.feet_a, t.feet_acceleration_w),
+    ]:  # fmt: skip
+        np.testing.assert_array_equal(mine, theirs)
+
+
+def test_wrong_moments_are_named(trot: list[Lap]) -> None:
+    job = job_of(robot_called("dog"), trot[:3])
+    with pytest.raises(WrongUse, match="job 0: dog has 4 legs, so 108 numbers a moment, not 107"):
+        stream([replace(job, moments=job.moments[:, :-1])])
+    broken = job.moments.copy()
+    broken[2, 5] = np.nan
+    with pytest.raises(WrongUse, match="job 1: moment 2 holds a number that is not finite"):
+        stream([job, replace(job, moments=broken)])
+    with pytest.raises(WrongUse, match="n at least 1, not 0"):
+        stream([job], every=0)
+
+
+# --- the certificate in words ----------------------------------------------------------------------
+def test_a_weak_knee_is_named_with_its_limit(trot: list[Lap]) -> None:
+    dog = robot_called("dog")
+    lap = next(lap for lap in trot[300:] if lap.target.stance.all())
+    strong = NumericalController(dog).torques(lap.target, lap.sensed)
+    limits = dog.tau_max.copy()
+    limits[2, 2] = 0.6 * abs(strong.tau[2, 2])
+    weak = replace(dog, tau_max=limits)
+    torques = NumericalController(weak).torques(lap.target, lap.sensed)
+    felt = felt_limits(weak, torques)
+    sentence = f"foot RL at its torque limit: knee, {limits[2, 2]:.3g} N·m"
+    assert abs(torques.tau[2, 2]) == pytest.approx(limits[2, 2])
+    assert any(one.sentence == sentence and one.price > 0 for one in felt)
+    assert [one.price for one in felt] == sorted((one.price for one in felt), reverse=True)
+    assert f"{sentence} (price" in explain(weak, torques)
+
+
+def test_ice_is_felt_as_friction(trot: list[Lap]) -> None:
+    dog = robot_called("dog")
+    lap = trot[600]
+    shove = replace(lap.target, acceleration_w=np.array([0.0, 14.0, 0.0]))
+    torques = NumericalController(dog).torques(shove, lap.sensed)
+    down = [dog.legs[leg] for leg in np.flatnonzero(shove.stance)]
+    sentences = [one.sentence for one in felt_limits(dog, torques)]
+    assert any(f"foot {leg} at its friction limit" in sentence for leg in down for sentence in sentences)
+    assert torques.residual > 0.1
