@@ -33,9 +33,9 @@ def cache_folder() -> Path:
     return Path(base) / "gaitwright" / "kernels" / sources_digest()
 
 
-def is_warm() -> bool:
+def is_warm(longest: str = "coordinator.coordinate") -> bool:
     """Whether the kernels of these sources were compiled before: asked of the one that takes longest."""
-    return any(Path(settings.CACHE_DIR).rglob("coordinator.coordinate-*.nbc"))
+    return any(Path(settings.CACHE_DIR).rglob(f"{longest}-*.nbc"))
 
 
 if not settings.CACHE_DIR:

@@ -158,3 +158,5 @@ class Torques:
     """`solved`, or why not, as a sentence."""
     prices: Float[np.ndarray, "legs limits"] | None = None
     """What each limit of each foot costs (`control.forces`, in words by `control.certificate`)."""
+    basis: Float[np.ndarray, "hints"] | None = None
+    """Where a linear program may start at the next tick."""

@@ -53,11 +53,13 @@ def test_many_jobs_at_once_equal_one_tick_at_a_time(trot: list[Lap], cores: int)
     dog, bug = robot_called("dog"), robot_called("insect")
     crawl = laps("insect", "walk", 0.05, 0.6)
     assert len(trot) > 2 * CHUNK, "more than one chunk"
-    jobs = [job_of(dog, trot), job_of(bug, crawl), job_of(dog, trot[:7])]
-    first, second, third = stream(jobs, cores=cores)
+    linear = replace(job_of(dog, trot[:600]), method="lp")
+    jobs = [job_of(dog, trot), job_of(bug, crawl), job_of(dog, trot[:7]), linear]
+    first, second, third, fourth = stream(jobs, cores=cores)
     assert same(first, tick_by_tick(dog, trot, "qp"))
     assert same(second, tick_by_tick(bug, crawl, "qp"))
     assert same(third, tick_by_tick(dog, trot[:7], "qp"))
+    assert same(fourth, tick_by_tick(dog, trot[:600], "lp"))
 
 
 def test_forces_before_the_first_moment_count(trot: list[Lap]) -> None:

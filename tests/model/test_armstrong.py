@@ -16,7 +16,8 @@ from gaitwright.model.dynamics.armstrong import (
     packed_accelerations,
     slow_coefficients,
 )
-from gaitwright.model.dynamics.newton_euler import hip_motion, inverse_dynamics, leg_motion
+from gaitwright.model.dynamics.leg import leg_at, leg_turns
+from gaitwright.model.dynamics.newton_euler import inverse_dynamics, links_motion
 from gaitwright.model.dynamics.tree import (
     Tree,
     ball_rotations,
@@ -216,8 +217,8 @@ def hinge_rates(robot: Robot, s, w, wd, a) -> list:
     """Angular velocity and acceleration of every link with mass, link axes, as the hinges move them."""
     out = []
     for k in range(robot.n):
-        at_hip = hip_motion(robot.leg_frame[k], tuple(robot.hip[k]), w, wd, a)
-        *links, _ = leg_motion(s.q[k], s.qd[k], s.qdd[k], robot.offset[k], robot.sign[k], *at_hip)
+        leg, q = leg_at(robot.packed, k), tuple(s.q[k])
+        links = links_motion(leg, leg_turns(q, leg.sign), w, wd, a, tuple(s.qd[k]), tuple(s.qdd[k]))
         out += [link[:2] for link, m in zip(links, robot.mass[k], strict=True) if m > 0.0]
     return out
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from gaitwright.bench.workers import cores
 
-PACKAGES = ("gaitwright", "numpy", "numba", "mujoco", "daqp")
+PACKAGES = ("gaitwright", "numpy", "numba", "mujoco")
 
 
 def machine() -> dict[str, Any]:

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from gaitwright.cli.output import check_json, write_json
 
-CORE = ("daqp", "jaxtyping", "msgspec", "mujoco", "numba", "numpy", "rich", "shapely")
+CORE = ("jaxtyping", "msgspec", "mujoco", "numba", "numpy", "rich", "shapely")
 """What Gaitwright cannot run without, by the names of modules and distributions."""
 EXTRAS = {"plot": ("matplotlib",), "record": ("mcap-ros2-support",)}
 MODULES = {"mcap-ros2-support": "mcap_ros2"}

@@ -2,8 +2,8 @@
 
 D. Goldfarb, A. Idnani, "A numerically stable dual method for solving strictly convex quadratic programs",
 Mathematical Programming 27 (1983). It starts at the minimum without limits and takes in one violated limit
-after the other. Our own because a call out of a kernel costs more than the solution: DAQP and quadprog are
-what the tests and the bench compare it with.
+after the other. Our own because a call out of a kernel costs more than the solution; quadprog is what tests
+and bench compare it with.
 """
 
 import math

@@ -1,119 +1,191 @@
-"""The thesis's force distribution, a linear program (row N3; equations.md §5).
+"""How the stance feet share a load by the thesis's linear program, and what each limit costs (row N3).
 
-Minimises peak normal force against joint power, weighed by ξ. As printed in the thesis the objective is
-the same for every feasible force; power counts here as its absolute value and the peak as a variable.
+The program is in `thesis_program`, the method in `simplex`. The prices of the limits come with the forces:
+they say how much the objective would fall if one gave way.
 """
 
-import math
+from typing import NamedTuple
 
 import numpy as np
 
 from gaitwright.compiled import kernel
-from gaitwright.control.demand import load_of
-from gaitwright.control.forces import balance_rows, contact_frame, limit_rows, to_contact
-from gaitwright.geometry import GRAVITY, dot, vec
+from gaitwright.control.priced import BOUND, COLUMN, HIGH, LOW, LOWER, UPPER, price_of
+from gaitwright.control.simplex import SENTENCES, SOLVED, minimise
+from gaitwright.control.thesis_program import linear_program, settings_of
 
-UNMET = 10.0
-"""Price of an unmet share of the wrench, against the peak force in weights."""
-XI = 0.5
-"""ξ: price of the power; that of the peak normal force is 1 − ξ."""
-CHANGE = 0.1
-"""Price of a change of force from tick to tick: keeps the solution from jumping between vertices."""
-FAR = 100.0
-"""A bound that no unknown reaches, in weights."""
+
+class Shared(NamedTuple):
+    """How the feet share the load, and what each limit costs."""
+
+    x: np.ndarray
+    """`(components · feet,)` the unknowns of the stance feet."""
+    prices: np.ndarray
+    """`(legs, 9)` how much the objective falls per unit that a limit moves out: friction +t1, −t1, +t2, −t2,
+    normal force at 0 and at its bound, and torques of three joints: + at the upper limit, − at the lower."""
+    unmet: np.ndarray
+    """`(6,)` the scaled balance that is missing."""
+    objective: float
+    code: int
+    """Of `simplex.SENTENCES`."""
+    culprit: int
+    """The quantity that cannot be kept within its limits, numbered as in `basis`; -1: none."""
+    basis: np.ndarray
+    """`(components · legs + 1,)` hints for the next tick, numbered as if all legs were down; -1: none."""
+    steps: int
+
+
+# --- numbers that last from tick to tick ---------------------------------------------------------
+@kernel
+def lasting(q, down, c, legs):
+    """Quantity q of the program, numbered as if all legs were down; `down`: the legs in stance."""
+    each, n, whole = 2 * c + 2, c * down.size + 1, c * legs + 1
+    if q < n - 1:
+        return c * down[q // c] + q % c
+    if q == n - 1:
+        return whole - 1
+    k = (q - n) // each
+    if k >= down.size:
+        return whole + each * (legs - down.size) + q - n
+    return whole + each * down[k] + (q - n) % each
 
 
 @kernel
-def projected(rows, wanted):
-    """`wanted` brought into the range of `rows`, by Gram and Schmidt.
+def current(q, slot, m, c):
+    """The quantity of the program that has the lasting number q, or -1; `slot`: place of each leg or -1."""
+    each, n, legs = 2 * c + 2, c * m + 1, slot.size
+    whole = c * legs + 1
+    if q < 0 or q >= whole + each * legs + 6:
+        return -1
+    if q < whole - 1:
+        return c * slot[q // c] + q % c if slot[q // c] >= 0 else -1
+    if q == whole - 1:
+        return n - 1
+    leg = (q - whole) // each
+    if leg >= legs:
+        return n + each * m + q - whole - each * legs
+    return n + each * slot[leg] + (q - whole) % each if slot[leg] >= 0 else -1
 
-    Two feet cannot make a moment about the line between them; without this the program would put that
-    whole defect on one axis.
-    """
-    left = rows.copy()
-    out = np.zeros(wanted.size)
-    for j in range(left.shape[1]):
-        column = left[:, j]
-        length = math.sqrt((column * column).sum())
-        if length < 1e-6:
-            continue
-        unit = column / length
-        out += (unit * wanted).sum() * unit
-        for k in range(j + 1, left.shape[1]):
-            left[:, k] -= (unit * left[:, k]).sum() * unit
+
+@kernel
+def hints_now(hints, down, c, legs):
+    """Last tick's basis in the numbers of this one; where there is none, a guess (-1: no hint)."""
+    n = c * down.size + 1
+    slot = np.full(legs, -1)
+    for k in range(down.size):
+        slot[down[k]] = k
+    out = np.full(n, -1)
+    known = 0
+    for h in hints:
+        q = current(h // 3, slot, down.size, c)
+        if q >= 0 and known < n:
+            out[known] = 3 * q + h % 3
+            known += 1
+    if known == 0:
+        # The balance holds, and all feet push alike.
+        for i in range(n):
+            k, row = i - 6, n + (2 * c + 2) * down.size + i
+            if k < 0:
+                out[i] = 3 * row + 1
+            elif k < down.size:
+                out[i] = 3 * (n + (2 * c + 2) * k + 7) + 2
+    return out
+
+
+# --- the answer ----------------------------------------------------------------------------------
+@kernel
+def limit_price(t, q, y):
+    """What of the price y of quantity q rests on its limits: > 0 on the upper, < 0 on the lower."""
+    below_top = t[HIGH, q] if t[BOUND, q] < t[UPPER, q] else t[LOW, q]
+    above_bottom = t[LOW, q] if t[BOUND, q] > t[LOWER, q] else t[HIGH, q]
+    return max(y - below_top, 0.0) + min(y - above_bottom, 0.0)
+
+
+@kernel
+def limit_prices(t, y, down, c, legs):
+    """Prices of the limits `(legs, 9)`, as in `Shared`."""
+    out = np.zeros((legs, 9))
+    n, each = c * down.size + 1, 2 * c + 2
+    for k in range(down.size):
+        prices, r, normal = out[down[k]], n + each * k, c * k + 2
+        for i in range(4):
+            prices[i] = limit_price(t, r + i, y[r + i])
+        price = limit_price(t, normal, y[normal])
+        prices[4], prices[5] = max(-price, 0.0), max(price, 0.0)
+        for j in range(3):
+            prices[6 + j] = limit_price(t, r + 4 + j, y[r + 4 + j])
     return out
 
 
 @kernel
-def power_rows(load, qd, stance, frame, weight, pace, out, bound):
-    """Writes rows with power_j = bound_j − out_j · x, in weights times √(g h), of the stance joints."""
-    k = 0
-    for leg in range(stance.size):
-        if not stance[leg]:
-            continue
-        for j in range(3):
-            rate = qd[leg, j] / pace
-            for i in range(3):
-                out[3 * k + j, 3 * k + i] = rate * dot(vec(load.push[leg, j]), vec(frame[i]))
-            bound[3 * k + j] = rate * load.free[leg, j] / weight
-        k += 1
+def total_price(t, x):
+    """The objective, and how far the last six rows, the balance, are from their bounds."""
+    total, off = 0.0, np.zeros(6)
+    first = t.shape[1] - 6
+    for q in range(t.shape[1]):
+        v = 0.0
+        for j in range(x.size):
+            v += t[COLUMN + j, q] * x[j]
+        total += price_of(t, q, v)
+        if q >= first:
+            off[q - first] = v - t[BOUND, q]
+    return total, off
 
 
 @kernel
-def linear_program(load_numbers, stance, share, normal, previous, tau_max, weight, height, qd):
-    """The program in the form `solve_lp` reads: cost, rows, lower and upper bounds.
+def distribute_linear(
+    load_numbers, stance, share, normal, previous, tau_max, weight, height, qd, settings_numbers, hints
+):
+    """How the stance feet share a packed `Load` by the thesis's program: a `Shared`.
 
-    Unknowns: forces x (3m), unmet balance (6), peak normal force (1), power (3m), change of force (3m);
-    all but the first are at least the absolute value of what they stand for.
+    `previous` are the last foot forces `(legs, 3)` in world axes [N], `hints` the last basis; all -1: none.
     """
-    load = load_of(load_numbers)
-    m = stance.sum()
-    frame = contact_frame(normal)
-    balance, wanted = balance_rows(load.wrench, load.arm, stance, frame, weight, height)
-    if m < 3:
-        wanted = projected(balance, wanted)
-    limits, low, high = limit_rows(load.free, load.push, stance, share, frame, tau_max, weight)
-    x_prev = to_contact(previous, stance, frame, weight)
-    f = 3 * m
-    unmet, peak, power, change = f, f + 6, f + 7, 2 * f + 7
-    n = 3 * f + 7
-    cost = np.zeros(n)
-    cost[unmet:peak] = UNMET
-    cost[peak] = 1.0 - XI
-    cost[power:change] = XI
-    cost[change:] = CHANGE
-
-    count = 12 + 7 * m + m + 4 * f
-    rows = np.zeros((count, n))
-    lower, upper = np.full(n + count, -FAR), np.full(n + count, FAR)
-    lower[:f], upper[:f] = low[:f], high[:f]
-    lower[f:n] = 0.0
-    r = 0
-    for i in range(6):
-        r = bound_absolute(rows, upper, n, r, balance[i], wanted[i], unmet + i)
-    rows[r : r + 7 * m, :f] = limits
-    lower[n + r : n + r + 7 * m], upper[n + r : n + r + 7 * m] = low[f:], high[f:]
-    r += 7 * m
-    for k in range(m):
-        rows[r, 3 * k + 2], rows[r, peak] = 1.0, -1.0
-        upper[n + r] = 0.0
-        r += 1
-    works, free = np.zeros((f, f)), np.zeros(f)
-    power_rows(load, qd, stance, frame, weight, math.sqrt(GRAVITY * height), works, free)
-    unit = np.zeros(f)
-    for k in range(f):
-        r = bound_absolute(rows, upper, n, r, works[k], free[k], power + k)
-        unit[:] = 0.0
-        unit[k] = 1.0
-        r = bound_absolute(rows, upper, n, r, unit, x_prev[k], change + k)
-    return cost, rows, lower, upper
+    legs = stance.size
+    c = 6 if settings_of(settings_numbers).components > 3.0 else 3
+    down = np.flatnonzero(stance)
+    basis = np.full(c * legs + 1, -1)
+    if down.size == 0:
+        return Shared(np.zeros(0), np.zeros((legs, 9)), np.zeros(6), 0.0, SOLVED, -1, basis, 0)
+    t = linear_program(
+        load_numbers, stance, share, normal, previous, tau_max, weight, height, qd, settings_numbers
+    )
+    start = hints_now(hints, down, c, legs)
+    x, y, final, code, culprit, steps = minimise(t, start)
+    for i in range(final.size):
+        if final[i] >= 0:
+            basis[i] = 3 * lasting(final[i] // 3, down, c, legs) + final[i] % 3
+    objective, unmet = total_price(t, x)
+    if culprit >= 0:
+        culprit = lasting(culprit, down, c, legs)
+    prices = limit_prices(t, y, down, c, legs)
+    return Shared(x[: c * down.size], prices, unmet, objective, code, culprit, basis, steps)
 
 
-@kernel
-def bound_absolute(rows, upper, n, r, row, value, variable):
-    """Two rows that keep |row · x − value| below a variable; returns the next free row."""
-    for i in range(row.size):
-        rows[r, i], rows[r + 1, i] = row[i], -row[i]
-    rows[r, variable] = rows[r + 1, variable] = -1.0
-    upper[n + r], upper[n + r + 1] = value, -value
-    return r + 2
+# --- in words ------------------------------------------------------------------------------------
+LIMITS = (
+    *("friction forward", "friction backward", "friction to the left", "friction to the right"),
+    *("the torque of hip 1", "the torque of hip 2", "the torque of the knee", "the peak normal force"),
+    *("tipping to the left", "tipping to the right", "tipping forward", "tipping backward"),
+    *("twisting to the left", "twisting to the right"),
+)
+"""What the rows of a foot limit."""
+
+
+def limit_name(quantity: int, legs: tuple[str, ...], components: int = 3) -> str:
+    """What a quantity, numbered as in `Shared`, limits."""
+    whole, each = components * len(legs) + 1, 2 * components + 2
+    if quantity < whole - 1:
+        return f"the foot force of {legs[quantity // components]}"
+    if quantity == whole - 1:
+        return "the peak normal force"
+    leg, row = divmod(quantity - whole, each)
+    if leg < len(legs):
+        return f"{LIMITS[row]} of {legs[leg]}"
+    return "the balance of " + ("forces" if quantity - whole - each * len(legs) < 3 else "moments")
+
+
+def verdict(code: int, culprit: int, legs: tuple[str, ...], components: int = 3) -> str:
+    """What came of it, with the limit that stands in the way where no forces will do."""
+    if code == SOLVED:
+        return "solved"
+    where = f": {limit_name(culprit, legs, components)}" if culprit >= 0 else ""
+    return f"these feet cannot carry this load, {SENTENCES[code]}{where}"

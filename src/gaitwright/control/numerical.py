@@ -1,20 +1,27 @@
 """MotionTarget + Sensed → Torques by solving the dynamics at every tick: the NC (rows N1 … N4)."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal, NamedTuple
 
 import numpy as np
+from jaxtyping import Float
 
 from gaitwright.compiled import kernel
 from gaitwright.control.active_set import SOLVED
 from gaitwright.control.certificate import status_of
 from gaitwright.control.demand import demand
 from gaitwright.control.forces import LIMITS, contact_frame, distribute, to_world, torques, unmet
+from gaitwright.control.linear import distribute_linear, verdict
 from gaitwright.control.moments import Moment
-from gaitwright.model.robot import Robot, unpacked
+from gaitwright.control.thesis_program import LinearSettings
+from gaitwright.errors import WrongUse
+from gaitwright.model.robot import Robot, scales
 from gaitwright.signals import MotionTarget, Sensed, Torques
 
 Method = Literal["qp", "lp"]
+PLAIN = LinearSettings()
+"""The linear program as the closed loop uses it."""
 
 
 class Effort(NamedTuple):
@@ -25,68 +32,104 @@ class Effort(NamedTuple):
     tau: np.ndarray
     forces_w: np.ndarray
     prices: np.ndarray
+    basis: np.ndarray
+    """`(3 legs + 1,)` where the linear program may start at the next tick; -1: nowhere."""
 
 
 @kernel
 def effort_of(numbers):
     """The `Effort` packed in one array, as views."""
-    n = (numbers.size - 3) // (6 + LIMITS)
+    n = (numbers.size - 4) // (9 + LIMITS)
+    basis = 3 + (6 + LIMITS) * n
     return Effort(
         numbers[:3],
         numbers[3 : 3 + 3 * n].reshape(n, 3),
         numbers[3 + 3 * n : 3 + 6 * n].reshape(n, 3),
-        numbers[3 + 6 * n :].reshape(n, LIMITS),
+        numbers[3 + 6 * n : basis].reshape(n, LIMITS),
+        numbers[basis:],
     )
 
 
 @kernel
+def blank_effort(n):
+    """Room for the effort of `n` legs, without hints."""
+    out = np.empty(4 + (9 + LIMITS) * n)
+    out[3 + (6 + LIMITS) * n :] = -1.0
+    return out
+
+
+# fmt: off
+@kernel
 def tick(
-    packed,
-    previous,
-    share,
-    position,
-    orientation,
-    velocity,
-    spin_b,
-    q,
-    qd,
-    stance,
-    normal,
-    want_p,
-    want_v,
-    want_a,
-    want_r,
-    want_w,
-    want_wd,
-    feet_p,
-    feet_v,
-    feet_a,
+    packed, previous, share, position, orientation, velocity, spin_b, q, qd, stance, normal, want_p, want_v,
+    want_a, want_r, want_w, want_wd, feet_p, feet_v, feet_a,
 ):
-    """One tick of the numerical controller by the quadratic program: a packed `Effort`."""
+    """One tick by the quadratic program: a packed `Effort`. Flat arguments cost a call from Python least."""
     moment = Moment(
         position, orientation, velocity, spin_b, normal, want_p, want_v, want_a, want_w, want_wd, want_r,
         stance, share, q, qd, feet_p, feet_v, feet_a,
-    )  # fmt: skip
+    )
     return distributed(packed, demand(packed, moment), moment, previous)
+
+
+@kernel
+def tick_linear(
+    packed, settings, hints, previous, share, position, orientation, velocity, spin_b, q, qd, stance, normal,
+    want_p, want_v, want_a, want_r, want_w, want_wd, feet_p, feet_v, feet_a,
+):
+    """One tick by the linear program of `settings`, which starts from `hints`."""
+    moment = Moment(
+        position, orientation, velocity, spin_b, normal, want_p, want_v, want_a, want_w, want_wd, want_r,
+        stance, share, q, qd, feet_p, feet_v, feet_a,
+    )
+    return distributed_linear(packed, demand(packed, moment), moment, previous, settings, hints)
+# fmt: on
 
 
 @kernel
 def distributed(packed, load, moment, previous):
     """The packed `Effort` for a packed `Load`, by the quadratic program."""
-    model = unpacked(packed)
+    tau_max, weight, height = scales(packed)
     stance, normal = moment.stance, moment.normal
-    weight, height = model.measures[0], model.measures[1]
     x, prices, code, culprit = distribute(
-        load, stance, moment.share, normal, previous, model.tau_max, weight, height
+        load, stance, moment.share, normal, previous, tau_max, weight, height
     )
-    return conclude(load, stance, normal, x, prices, code, culprit, model.tau_max, weight, height)
+    out = blank_effort(stance.size)
+    effort_of(out).prices[:] = prices
+    conclude(out, load, stance, normal, x, code, culprit, tau_max, weight, height)
+    return out
 
 
 @kernel
-def conclude(load, stance, normal, x, prices, code, culprit, tau_max, weight, height):
-    """The packed `Effort` of a distribution; where it failed, the feet that are down share the weight."""
-    n = stance.size
-    out = np.empty(3 + (6 + LIMITS) * n)
+def distributed_linear(packed, load, moment, previous, settings, hints):
+    """The packed `Effort` for a packed `Load`, by the linear program (point feet)."""
+    tau_max, weight, height = scales(packed)
+    stance, normal = moment.stance, moment.normal
+    shared = distribute_linear(
+        load,
+        stance,
+        moment.share,
+        normal,
+        previous,
+        tau_max,
+        weight,
+        height,
+        moment.qd,
+        settings,
+        hints.astype(np.int64),
+    )
+    out = blank_effort(stance.size)
+    effort = effort_of(out)
+    effort.prices[:] = shared.prices
+    effort.basis[:] = shared.basis
+    code, culprit = shared.code, shared.culprit
+    conclude(out, load, stance, normal, shared.x, code, culprit, tau_max, weight, height)
+    return out
+
+
+@kernel
+def conclude(out, load, stance, normal, x, code, culprit, tau_max, weight, height):
+    """Writes torques, forces and residual; where it failed, the feet that are down share the weight."""
     effort = effort_of(out)
     if code != SOLVED:
         feet = x.size // 3
@@ -95,13 +138,8 @@ def conclude(load, stance, normal, x, prices, code, culprit, tau_max, weight, he
     forces = to_world(x, stance, contact_frame(normal), weight)
     effort.forces_w[:] = forces
     effort.tau[:] = torques(load, forces, tau_max)
-    effort.prices[:] = prices
-    effort.told[0], effort.told[1], effort.told[2] = (
-        unmet(load, forces, stance, weight, height),
-        code,
-        culprit,
-    )
-    return out
+    effort.told[0] = unmet(load, forces, stance, weight, height)
+    effort.told[1], effort.told[2] = code, culprit
 
 
 @dataclass(frozen=True)
@@ -110,13 +148,21 @@ class NumericalController:
 
     robot: Robot
     method: Method = "qp"
+    linear: LinearSettings = PLAIN
+    """What counts where the method is `lp`."""
+
+    def __post_init__(self) -> None:
+        if self.linear.components != 3.0:
+            raise WrongUse(
+                f"the feet of a robot that walks are points: 3 components of a foot's load, not "
+                f"{self.linear.components:g}"
+            )
 
     def torques(self, target: MotionTarget, sensed: Sensed, previous: Torques | None = None) -> Torques:
         """Joint torques [N·m] for this tick; `previous` smooths the foot forces."""
-        robot = self.robot
-        numbers = tick(
-            robot.packed,
-            np.zeros((robot.n, 3)) if previous is None else previous.forces_w,
+        robot, n = self.robot, self.robot.n
+        moment = (
+            np.zeros((n, 3)) if previous is None else previous.forces_w,
             target.share,
             sensed.position_w,
             sensed.orientation_wb,
@@ -136,14 +182,36 @@ class NumericalController:
             target.feet_velocity_w,
             target.feet_acceleration_w,
         )
-        n = robot.n
+        if self.method == "qp":
+            numbers = tick(robot.packed, *moment)
+        else:
+            hints = self.no_hints if previous is None or previous.basis is None else previous.basis
+            numbers = tick_linear(robot.packed, self.settings, hints, *moment)
+        code = int(numbers[1])
+        basis = 3 + (6 + LIMITS) * n
         return Torques(
             numbers[3 : 3 + 3 * n].reshape(n, 3),
             numbers[3 + 3 * n : 3 + 6 * n].reshape(n, 3),
             float(numbers[0]),
-            status_of(robot, int(numbers[1]), int(numbers[2]), target.stance),
-            numbers[3 + 6 * n :].reshape(n, LIMITS),
+            "solved" if code == SOLVED else self.reason(code, int(numbers[2]), target),
+            numbers[3 + 6 * n : basis].reshape(n, LIMITS),
+            numbers[basis:],
         )
+
+    def reason(self, code: int, culprit: int, target: MotionTarget) -> str:
+        """Why there is no distribution, as a sentence."""
+        if self.method == "qp":
+            return status_of(self.robot, code, culprit, target.stance)
+        return verdict(code, culprit, self.robot.legs)
+
+    @cached_property
+    def settings(self) -> Float[np.ndarray, "settings"]:
+        """The settings of the linear program as kernels read them."""
+        return np.array(self.linear)
+
+    @cached_property
+    def no_hints(self) -> Float[np.ndarray, "hints"]:
+        return np.full(3 * self.robot.n + 1, -1.0)
 
 
 def idle(robot: Robot) -> Torques:

@@ -16,8 +16,10 @@ from jaxtyping import Float, Int
 
 from gaitwright.compiled import kernel_nogil
 from gaitwright.control.demand import demand
+from gaitwright.control.forces import LIMITS
 from gaitwright.control.moments import BODY, Moments, moment_of
-from gaitwright.control.numerical import distributed, effort_of
+from gaitwright.control.numerical import PLAIN, Method, distributed, distributed_linear, effort_of
+from gaitwright.control.thesis_program import LinearSettings
 from gaitwright.errors import WrongUse
 from gaitwright.model.robot import Robot
 
@@ -33,6 +35,9 @@ class Job:
     moments: Moments
     start: Float[np.ndarray, "legs 3"] | None = None
     """Foot forces before the first moment [N], world axes; none where not given."""
+    method: Method = "qp"
+    linear: LinearSettings = PLAIN
+    """As in `NumericalController`."""
 
 
 @dataclass(frozen=True)
@@ -60,6 +65,16 @@ def share_out(packed, moments, loads, before, out):
     for i in range(moments.shape[0]):
         out[i] = distributed(packed, loads[i], moment_of(moments[i]), before)
         before[:] = effort_of(out[i]).forces_w
+
+
+@kernel_nogil
+def share_out_linear(packed, moments, loads, settings, before, hints, out):
+    """The second stage by the linear program; `hints` (changed in place): its last basis."""
+    for i in range(moments.shape[0]):
+        out[i] = distributed_linear(packed, loads[i], moment_of(moments[i]), before, settings, hints)
+        effort = effort_of(out[i])
+        before[:] = effort.forces_w
+        hints[:] = effort.basis
 
 
 def stream(jobs: Sequence[Job], every: int = 1, cores: int | None = None) -> list[Efforts]:
@@ -103,13 +118,18 @@ def finish(job: Job, chunks: Sequence[Chunk]) -> Efforts:
     """The second stage of a job, each chunk when its first stage is done."""
     n, steps = job.robot.n, len(job.moments)
     before = np.zeros((n, 3)) if job.start is None else job.start.copy()
-    out = np.empty((steps, 3 + 15 * n))
+    hints, settings = np.full(3 * n + 1, -1.0), np.array(job.linear)
+    out = np.empty((steps, 4 + (9 + LIMITS) * n))
     for part, future in chunks:
-        share_out(job.robot.packed, job.moments[part], future.result(), before, out[part])
+        task, found = (job.robot.packed, job.moments[part], future.result()), out[part]
+        if job.method == "qp":
+            share_out(*task, before, found)
+        else:
+            share_out_linear(*task, settings, before, hints, found)
     return Efforts(
         out[:, 3 : 3 + 3 * n].reshape(steps, n, 3),
         out[:, 3 + 3 * n : 3 + 6 * n].reshape(steps, n, 3),
-        out[:, 3 + 6 * n :].reshape(steps, n, 9),
+        out[:, 3 + 6 * n : 3 + (6 + LIMITS) * n].reshape(steps, n, LIMITS),
         out[:, 0],
         out[:, 1].astype(np.int64),
     )

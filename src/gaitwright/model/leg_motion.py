@@ -173,6 +173,8 @@ Joints = Float[np.ndarray, "legs 3"]
 """Angles, rates or accelerations of the joints [rad, rad/s, rad/s²]."""
 Feet = Float[np.ndarray, "legs 3"]
 """Places, velocities or accelerations of the centres of the feet [m, m/s, m/s²]."""
+Points = Float[np.ndarray, "*moments legs 3"]
+"""The same of one moment or many."""
 Regular = Bool[np.ndarray, "legs"]
 """Which legs are in a regular pose: the answer is exact there, elsewhere only bounded."""
 
@@ -213,7 +215,10 @@ def checked(robot: Robot, joints: Joints, what: str = ANGLE) -> Joints:
 
 # --- for people: over a base that moves --------------------------------------------------------------
 class BaseMotion(NamedTuple):
-    """How a base moves. `_w` is in world axes, `_b` in base axes, as in `Sensed`."""
+    """How a base moves. `_w` is in world axes, `_b` in base axes, as in `Sensed`.
+
+    Of many moments at once: matrices `(moments, 3, 3)`, vectors `(moments, 1, 3)`.
+    """
 
     rotation_wb: Float[np.ndarray, "3 3"]
     velocity_w: Float[np.ndarray, "3"]
@@ -226,14 +231,17 @@ class BaseMotion(NamedTuple):
     """[rad/s²]."""
 
 
-def velocity_from_base(base: BaseMotion, feet_b: Feet, feet_velocity_w: Feet) -> Feet:
+def velocity_from_base(base: BaseMotion, feet_b: Points, feet_velocity_w: Points) -> Points:
     """Velocities of points relative to the base, base axes: ṗ = Rᵀ(v_foot − v_b) − ω × p."""
     return (feet_velocity_w - base.velocity_w) @ base.rotation_wb - np.cross(base.angular_velocity_b, feet_b)
 
 
 def acceleration_from_base(
-    base: BaseMotion, feet_b: Feet, feet_velocity_b: Feet, feet_acceleration_w: Feet
-) -> Feet:
+    base: BaseMotion,
+    feet_b: Points,
+    feet_velocity_b: Points,
+    feet_acceleration_w: Points,
+) -> Points:
     """Accelerations of points relative to the base: p̈ = Rᵀ(a_foot − a_b) − ω̇ × p − 2 ω × ṗ − ω × (ω × p).
 
     `feet_velocity_b` is ṗ, relative to the base.

@@ -147,6 +147,17 @@ class Robot:
 
 
 @kernel
+def scales(packed):
+    """Torque limits `(legs, 3)`, weight [N] and nominal height [m] of a `Robot.packed`.
+
+    Read from its end: `unpacked` takes longer than a controller likes to wait.
+    """
+    n = int(packed[0])
+    end = packed.size - 3
+    return packed[end - 7 * n : end - 4 * n].reshape(n, 3), packed[end], packed[end + 1]
+
+
+@kernel
 def unpacked(packed):
     """The `RobotArrays` in a `Robot.packed`, as views."""
     n = int(packed[0])

@@ -16,7 +16,7 @@ import numpy as np
 from jaxtyping import Float
 
 from gaitwright.compiled import kernel
-from gaitwright.geometry import add, cross, dot, scale, sub, times_t, turn_x, turn_y, vec
+from gaitwright.geometry import add, cross, dot, scale, sub, turn_x, turn_y, vec
 from gaitwright.model.dynamics.leg import (
     base_at,
     foot_and_columns,
@@ -258,19 +258,3 @@ def joint_accelerations(packed, w, wd, a, q, qd, feet_a):
         _, c1, c2, c3 = foot_and_columns(turns, leg.offset, leg.sign)
         write(qdd[k], 0, solve_columns(c1, c2, c3, short))
     return qdd
-
-
-# --- one leg from arrays -------------------------------------------------------------------------
-@kernel
-def hip_motion(leg_frame, hip, w, wd, a):
-    """`motion_at_hip` for a leg frame given as an array."""
-    return times_t(leg_frame, w), times_t(leg_frame, wd), times_t(leg_frame, carried(a, w, wd, hip))
-
-
-@kernel
-def leg_motion(q, qd, qdd, offset, sign, w, wd, a):
-    """Motion of the three links and acceleration of the foot (leg frame) in one go, from arrays."""
-    turns, links = leg_turns(q, sign), rows(offset)
-    bias = bias_motion(turns, qd, links, sign, w, wd, a)
-    m1, m2, m3 = with_accelerations(turns, bias, qdd, links, sign)
-    return m1, m2, m3, foot_acceleration(turns, (m1, m2, m3), links)
