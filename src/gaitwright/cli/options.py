@@ -15,12 +15,15 @@ from gaitwright.cli.words import (
     driver,
     duration,
     finite,
+    integrator,
+    plant,
     point,
     positive,
     seed,
     skillbook,
 )
 from gaitwright.errors import WrongUse, unknown
+from gaitwright.plant.offers import INTEGRATORS, PLANTS
 
 
 class Command(NamedTuple):
@@ -56,9 +59,9 @@ COMMANDS = {
         "Holds one skill at one velocity for a time and reports how well. Exit code 0: it walked for that "
         "time; 1: it fell or stopped, and `stopped_because` says why. `gaitwright skills` lists the skills.",
         (
-            "gaitwright skill --skill trot --speed 0.5",
             "gaitwright skill --skill walk --lateral 0.1 --turn 0.3 --seconds 20 --json walk.json",
-            "gaitwright skill --skill trot --push 0.5 90     # pushed to the left after half of the time",
+            "gaitwright skill --skill trot --speed 0.5 --push 0.5 90     # pushed to the left after 5 s",
+            "gaitwright skill --robot thesis --skill walk --plant armstrong --check     # the thesis's plant",
         ),
     ),
     "robots": Command(
@@ -205,6 +208,7 @@ def add_demo(parser: argparse.ArgumentParser) -> None:
         "--seed", type=seed, default=8, metavar="N", help="draws the blocks and the start (8)"
     )
     parser.add_argument("--out", metavar="DIR", help="a new folder for the files (runs/demo-NNN)")
+    add_plant(parser)
 
 
 def add_mission(parser: argparse.ArgumentParser) -> None:
@@ -261,8 +265,24 @@ def add_run(parser: argparse.ArgumentParser, seconds: float) -> None:
     parser.add_argument("--seconds", type=duration, default=seconds, metavar="T", help=longest)
     random = "draws the random parts of the scene and small differences of the start (0)"
     parser.add_argument("--seed", type=seed, default=0, metavar="N", help=random)
-    out = "a new folder for picture, recording (.npz, .mcap) and report"
-    parser.add_argument("--out", metavar="DIR", help=out)
+    parser.add_argument("--out", metavar="DIR", help="a new folder for picture, recording and report")
+    add_plant(parser)
+
+
+def add_plant(parser: argparse.ArgumentParser) -> None:
+    world = f"whose mechanics move the robot: {listed(PLANTS)} (mujoco)"
+    parser.add_argument("--plant", type=plant, default="mujoco", metavar="NAME", help=world)
+    how = f"how plant armstrong steps through time: {listed(INTEGRATORS)} (semi-implicit)"
+    parser.add_argument("--integrator", type=integrator, metavar="NAME", help=how)
+    step = "step of the physics in seconds, a part of 0.002 (mujoco: all of it; armstrong: what is safe)"
+    parser.add_argument("--timestep", type=positive, metavar="SECONDS", help=step)
+    check = "compare produced with desired motion, and plant armstrong's recursion with the closed form"
+    parser.add_argument("--check", action="store_true", help=check)
+
+
+def listed(offers: dict[str, str]) -> str:
+    """Names with what they are, for a help."""
+    return "; ".join(f"{name}, {what}" for name, what in offers.items())
 
 
 def add_skills(parser: argparse.ArgumentParser) -> None:

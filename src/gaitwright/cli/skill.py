@@ -9,7 +9,7 @@ from gaitwright.errors import WrongUse
 from gaitwright.geometry import heading, rotation
 from gaitwright.locomotion import Lap
 from gaitwright.model.robot import Robot
-from gaitwright.plant.simulation import MujocoPlant
+from gaitwright.plant.choose import SimulatedPlant
 from gaitwright.signals import Mission
 from gaitwright.skills.chooser import fixed_skill
 from gaitwright.skills.library import check_speed, fastest, find_skill, speed_scale
@@ -71,7 +71,7 @@ class Push:
         force = impulse * robot.total_mass / PUSH_LASTS
         return cls(force, math.radians(direction), at, at + PUSH_LASTS)
 
-    def __call__(self, plant: MujocoPlant, lap: Lap) -> None:
+    def __call__(self, plant: SimulatedPlant, lap: Lap) -> None:
         """Begins and ends the push when its time has come."""
         due = self.begins - 1e-9 <= lap.sensed.time < self.ends - 1e-9
         if due and not self.pushing:

@@ -16,8 +16,9 @@ from gaitwright.errors import WrongUse
 from gaitwright.locomotion import Brain, Chooser, Lap
 from gaitwright.model.robot import Robot
 from gaitwright.model.scene import Scene, load_scene
+from gaitwright.plant.choose import SimulatedPlant, make_plant
+from gaitwright.plant.closure import Closure
 from gaitwright.plant.models import load_robot_and_notes
-from gaitwright.plant.simulation import MujocoPlant
 from gaitwright.recording import INTERRUPTED, Recording, Report, walk
 from gaitwright.signals import Mission
 from gaitwright.skills.library import REFERENCE_HEIGHT
@@ -99,17 +100,26 @@ def run(
     setting: Setting,
     mission: Mission,
     args: Namespace,
-    on_lap: Callable[[MujocoPlant, Lap], None] | None = None,
+    on_lap: Callable[[SimulatedPlant, Lap], None] | None = None,
 ) -> int:
     """Simulates, reports, leaves the files in `args.out`; returns the exit code."""
-    with working("building the world", worth_a_line=False):
-        plant = MujocoPlant(setting.robot, setting.scene, DT)
+    cold = args.plant == "armstrong" and not is_warm("integrators.advance")
+    what = (
+        "compiling the plant's kernels (first run only, up to two minutes)" if cold else "building the world"
+    )
+    with working(what, worth_a_line=cold):
+        plant = make_plant(
+            args.plant, setting.robot, setting.scene, DT, args.integrator, args.timestep, args.check
+        )
     warm_up(setting, plant, mission)
+    closure = Closure(setting.robot, DT) if args.check else None
     began = perf_counter()
     with Simulating(args.seconds) as progress:
 
         def watch(lap: Lap) -> None:
             progress(lap)
+            if closure:
+                closure.add(lap.sensed, lap.torques)
             if on_lap:
                 on_lap(plant, lap)
 
@@ -118,10 +128,11 @@ def run(
         )
     if not len(recording):
         raise KeyboardInterrupt
-    return finish(setting, recording, args, perf_counter() - began)
+    wall = perf_counter() - began
+    return finish(setting, recording, args, wall, checks(plant, closure) if closure else [])
 
 
-def warm_up(setting: Setting, plant: MujocoPlant, mission: Mission) -> None:
+def warm_up(setting: Setting, plant: SimulatedPlant, mission: Mission) -> None:
     """Three ticks whose result is thrown away: compiles the kernels, or loads them from numba's cache."""
     cold = not is_warm()
     what = "compiling kernels (first run only, up to two minutes)" if cold else "loading compiled kernels"
@@ -130,7 +141,16 @@ def warm_up(setting: Setting, plant: MujocoPlant, mission: Mission) -> None:
 
 
 # --- after the run ---------------------------------------------------------------------------------
-def finish(setting: Setting, recording: Recording, args: Namespace, wall: float) -> int:
+def checks(plant: SimulatedPlant, closure: Closure) -> list[tuple[str, str]]:
+    """What `--check` found (row N8)."""
+    residual = getattr(plant, "worst_residual", None)
+    recursion = [] if residual is None else [("recursion", f"off the closed form by {residual:.0e} (worst)")]
+    return [*recursion, ("motion", closure.sentence())]
+
+
+def finish(
+    setting: Setting, recording: Recording, args: Namespace, wall: float, checked: list[tuple[str, str]]
+) -> int:
     """Writes and prints the report, leaves the files that were asked for; returns the exit code."""
     report = recording.report()
     aside = args.json == "-"
@@ -138,7 +158,7 @@ def finish(setting: Setting, recording: Recording, args: Namespace, wall: float)
     write_json(args.json, report.to_json())
     title = f"{report.robot} in {report.scene}, seed {report.seed}: {report.stopped_because}"
     goal = report.arrived or not recording.done
-    show_pairs(title, [*table_of(report, wall, goal), *kept], to_stderr=aside)
+    show_pairs(title, [*table_of(report, wall, goal), *checked, *kept], to_stderr=aside)
     if report.stopped_because == INTERRUPTED:
         also = f", and the recording in {args.out}" if args.out else ""
         remark(f"gaitwright: interrupted after {report.duration_s:.1f} s; kept: the report{also}")

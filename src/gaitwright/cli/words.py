@@ -5,6 +5,7 @@ import math
 import re
 
 from gaitwright.errors import WrongUse, unknown
+from gaitwright.plant.offers import INTEGRATORS, PLANTS
 
 DRIVERS = {"numerical": "solves the robot's dynamics at every tick"}
 """Who can compute the torques now."""
@@ -71,4 +72,16 @@ def skillbook(text: str) -> str:
 def distribution(text: str) -> str:
     if text not in ("qp", "lp"):
         raise unknown("distribution", text, ("qp", "lp"))
+    return text
+
+
+def plant(text: str) -> str:
+    if text not in PLANTS:
+        raise unknown("plant", text, PLANTS)
+    return text
+
+
+def integrator(text: str) -> str:
+    if text not in INTEGRATORS:
+        raise unknown("integrator", text, INTEGRATORS)
     return text

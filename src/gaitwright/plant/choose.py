@@ -1,0 +1,64 @@
+"""A plant by its name: only the one that is asked for is imported."""
+
+from importlib import import_module
+from typing import Protocol, runtime_checkable
+
+from gaitwright.errors import WrongUse, unknown
+from gaitwright.model.robot import Robot
+from gaitwright.model.scene import Scene
+from gaitwright.plant.offers import PLANTS
+from gaitwright.signals import Sensed, Torques
+
+HOMES = {
+    "mujoco": ("gaitwright.plant.simulation", "MujocoPlant"),
+    "armstrong": ("gaitwright.plant.armstrong.simulation", "ArmstrongPlant"),
+}
+
+
+@runtime_checkable
+class SimulatedPlant(Protocol):
+    """Torques → Sensed, in a world that can be set back and pushed."""
+
+    dt: float
+
+    def reset(self, seed: int = 0, vary: bool = True) -> Sensed: ...
+
+    def step(self, torques: Torques) -> Sensed: ...
+
+    def push(self, force_w: tuple[float, float, float]) -> None: ...
+
+
+def make_plant(  # noqa: PLR0913 - the door to every plant; most calls name three of these
+    name: str,
+    robot: Robot,
+    scene: Scene,
+    dt: float = 0.002,
+    integrator: str | None = None,
+    timestep: float | None = None,
+    check: bool = False,
+) -> SimulatedPlant:
+    """The plant of that name (`offers.PLANTS`) with a robot in a scene; `dt`: control period [s].
+
+    `integrator`, `check` are for plant `armstrong` alone; `timestep` [s] divides `dt`. Raises `WrongUse`
+    for what does not exist or does not fit.
+    """
+    if name not in PLANTS:
+        raise unknown("plant", name, PLANTS)
+    options: dict[str, object] = {} if timestep is None else {"timestep": timestep}
+    if name == "armstrong":
+        options |= {"check": check} | ({} if integrator is None else {"integrator": integrator})
+    elif integrator is not None:
+        raise WrongUse(
+            f"plant {name} integrates by itself, implicitfast; {integrator!r} goes with plant armstrong"
+        )
+    elif timestep is not None and not divides(timestep, dt):
+        raise WrongUse(
+            f"a step of {timestep * 1e3:g} ms does not divide the control period of {dt * 1e3:g} ms"
+        )
+    module, cls = HOMES[name]
+    return getattr(import_module(module), cls)(robot, scene, dt, **options)
+
+
+def divides(timestep: float, dt: float) -> bool:
+    """Whether a number of time steps make up a control period."""
+    return timestep > 0.0 and dt / timestep > 0.5 and abs(dt / timestep - round(dt / timestep)) < 1e-6
