@@ -15,14 +15,14 @@ from gaitwright.errors import WrongUse
 from gaitwright.gait.posture import sample
 from gaitwright.gait.reference import periodic_reference
 from gaitwright.gait.swing import CLEARANCE, bump, smooth
-from gaitwright.geometry import GRAVITY, cross, quaternion_of, sub, times_t, vec
-from gaitwright.model.dynamics.newton_euler import hip_motion, leg_motion, solve_columns
-from gaitwright.model.kinematics import (
-    REACHED,
-    leg_angles,
-    leg_points_and_jacobian,
-    to_base,
-    to_leg,
+from gaitwright.geometry import GRAVITY, quaternion_of
+from gaitwright.model.kinematics import REACHED, all_angles
+from gaitwright.model.leg_motion import (
+    BaseMotion,
+    acceleration_from_base,
+    all_joint_accelerations,
+    all_joint_rates,
+    velocity_from_base,
 )
 from gaitwright.model.reach import reach
 from gaitwright.model.robot import Robot, unpacked
@@ -141,7 +141,7 @@ def desired_cycle(
     time = gait.period * np.arange(steps) / steps
     body = body_motion(robot, gait, command, manner, time)
     stance, feet, feet_v, feet_a = feet_motion(robot, gait, command, manner, time)
-    q, qd, qdd, codes = joint_motion(robot.packed, *body, feet, feet_v, feet_a)
+    q, qd, qdd, codes = joint_motion(robot, body, feet, feet_v, feet_a)
     if (codes != REACHED).any():
         raise out_of_reach(robot, gait, body, feet, codes)
     return DesiredCycle(robot, gait, command, time, stance, *body, feet, feet_v, feet_a, q, qd, qdd)
@@ -247,34 +247,30 @@ def foothold(
 
 
 # --- the joints ------------------------------------------------------------------------------------
-@kernel
-def joint_motion(packed, position, velocity, acceleration, rotation, spin, spin_rate, feet, feet_v, feet_a):
+def joint_motion(
+    robot: Robot, body: tuple[Array, ...], feet: Array, feet_v: Array, feet_a: Array
+) -> tuple[Array, Array, Array, Array]:
     """Joint angles, rates, accelerations `(steps, legs, 3)` of a motion, and reach codes `(steps, legs)`."""
+    position, velocity, acceleration, R, spin, spin_rate = body
+    spin_b, spin_rate_b = (np.einsum("ij,ijk->ik", vectors, R)[:, None] for vectors in (spin, spin_rate))
+    base = BaseMotion(R, velocity[:, None], spin_b, acceleration[:, None], spin_rate_b)
+    feet_b = (feet - position[:, None]) @ R
+    relative = velocity_from_base(base, feet_b, feet_v)
+    return joints_of(robot.packed, feet_b, relative, acceleration_from_base(base, feet_b, relative, feet_a))
+
+
+@kernel
+def joints_of(packed, feet_b, velocity_b, acceleration_b):
+    """Joint angles, rates, accelerations and reach codes for feet that move so relative to the base."""
     model = unpacked(packed)
-    q, qd, qdd = np.empty(feet.shape), np.empty(feet.shape), np.empty(feet.shape)
-    codes = np.empty(feet.shape[:2], dtype=np.int64)
-    still = np.zeros(3)
-    for i in range(feet.shape[0]):
-        R = rotation[i]
-        w, wd = times_t(R, vec(spin[i])), times_t(R, vec(spin_rate[i]))
-        a = times_t(R, vec(acceleration[i]))
-        for leg in range(feet.shape[1]):
-            frame, hip = model.leg_frame[leg], model.hip[leg]
-            offset, sign = model.offset[leg], model.sign[leg]
-            in_base = times_t(R, sub(vec(feet[i, leg]), vec(position[i])))
-            at = to_leg(frame, hip, in_base)
-            angles, code = leg_angles(at, offset, sign, model.branch[leg, 0], model.branch[leg, 1])
-            codes[i, leg] = code
-            q[i, leg, 0], q[i, leg, 1], q[i, leg, 2] = angles
-            foot, c1, c2, c3 = leg_points_and_jacobian(angles, offset, sign)
-            carries = cross(w, to_base(frame, hip, foot))
-            moves = sub(times_t(R, sub(vec(feet_v[i, leg]), vec(velocity[i]))), carries)
-            rates = solve_columns(c1, c2, c3, times_t(frame, moves))
-            qd[i, leg, 0], qd[i, leg, 1], qd[i, leg, 2] = rates
-            hw, hwd, ha = hip_motion(frame, vec(hip), w, wd, a)
-            bias = leg_motion(angles, rates, still, offset, sign, hw, hwd, ha)[3]
-            need = sub(times_t(frame, times_t(R, vec(feet_a[i, leg]))), bias)
-            qdd[i, leg, 0], qdd[i, leg, 1], qdd[i, leg, 2] = solve_columns(c1, c2, c3, need)
+    q, qd, qdd = np.empty(feet_b.shape), np.empty(feet_b.shape), np.empty(feet_b.shape)
+    codes = np.empty(feet_b.shape[:2], dtype=np.int64)
+    for i in range(feet_b.shape[0]):
+        q[i], codes[i] = all_angles(
+            model.hip, model.leg_frame, model.offset, model.sign, model.branch, feet_b[i]
+        )
+        qd[i], _ = all_joint_rates(model, q[i], velocity_b[i])
+        qdd[i], _ = all_joint_accelerations(model, q[i], qd[i], acceleration_b[i])
     return q, qd, qdd, codes
 
 
