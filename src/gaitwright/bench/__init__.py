@@ -6,7 +6,10 @@ something has to be known about how they are measured.
 
 from gaitwright.errors import unknown
 
-GROUPS = {"spine": ("walks", "ground", "pushes", "lp", "robots", "missions", "tick", "speed")}
+GROUPS = {
+    "spine": ("walks", "ground", "pushes", "lp", "robots", "missions", "tick", "speed"),
+    "mechanics": ("dynamics", "sharing", "streaming", "armstrong"),
+}
 """Groups of claims, each claim the name of a module here, in the order in which they are measured."""
 
 

@@ -8,7 +8,7 @@ from importlib import import_module
 from importlib.metadata import version
 from importlib.util import find_spec
 from time import perf_counter_ns
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -23,6 +23,7 @@ Times = dict[str, np.ndarray]
 """Name → µs of each tick."""
 
 
+@runtime_checkable
 class Contender(Protocol):
     """Something that is timed in rounds."""
 

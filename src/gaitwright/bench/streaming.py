@@ -27,7 +27,7 @@ SPEEDS = 5
 NOTE = (
     "Stream: a complete solution is feedback, inverse dynamics with feet and Jacobians, quadratic program "
     "and torques of one moment. Rates are the best of five runs by the wall clock: threads need both cores "
-    "to themselves. Held dynamics: accelerations, Jacobians and free torques of one moment serve the next ones."
+    "to themselves. Held dynamics: accelerations, Jacobians and free torques of a moment serve the next ones."
 )
 
 

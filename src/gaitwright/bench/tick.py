@@ -82,7 +82,7 @@ def run_rounds(session: Session, contenders: Sequence[Contender]) -> list[Times]
     rounds, ticks = (QUICK_ROUNDS, QUICK_TICKS) if session.quick else (ROUNDS, TICKS)
     found: list[Times] = []
     for number in range(rounds + 1):
-        session.voice.say(f"tick: round {number} of {rounds}", now=False)
+        session.voice.say(f"timing: round {number} of {rounds}", now=False)
         times: Times = {}
         gc.collect()
         gc.disable()

@@ -13,8 +13,8 @@ from gaitwright.geometry import heading, rotation
 from gaitwright.locomotion import Brain, Lap
 from gaitwright.model.robot import Robot
 from gaitwright.model.scene import Scene, load_scene
+from gaitwright.plant.choose import SimulatedPlant, make_plant
 from gaitwright.plant.models import load_robot
-from gaitwright.plant.simulation import MujocoPlant
 from gaitwright.recording import INTERRUPTED, walk
 from gaitwright.signals import Mission
 from gaitwright.skills.chooser import fixed_skill
@@ -58,6 +58,7 @@ class Trial:
     """[m]"""
     method: Method = "qp"
     push: Push | None = None
+    plant: str = "mujoco"
 
     @property
     def name(self) -> str:
@@ -89,9 +90,9 @@ def simulate(trial: Trial) -> Outcome:
     robot = robot_named(trial.robot)
     scene = load_scene(trial.scene, trial.seed)
     brain = brain_for(trial, robot, scene)
-    plant = MujocoPlant(robot, scene, DT)
+    plant = make_plant(trial.plant, robot, scene, DT)
     mission = Mission(()) if trial.goal is None else Mission((trial.goal,))
-    pusher = Pusher(plant, trial.push) if trial.push else None
+    pusher = Pusher(plant, robot, trial.push) if trial.push else None
     cpu, wall = process_time(), perf_counter()
     recording = walk(brain, plant, mission, trial.seconds, trial.seed, scene=scene.name, watch=pusher)
     cpu, wall = process_time() - cpu, perf_counter() - wall
@@ -120,8 +121,8 @@ def brain_for(trial: Trial, robot: Robot, scene: Scene) -> Brain:
 class Pusher:
     """Pushes the robot once, when its time and the phase of its gait have come; called with every lap."""
 
-    def __init__(self, plant: MujocoPlant, push: Push) -> None:
-        self.plant, self.push = plant, push
+    def __init__(self, plant: SimulatedPlant, robot: Robot, push: Push) -> None:
+        self.plant, self.robot, self.push = plant, robot, push
         self.ends: float | None = None
         self.over = False
 
@@ -142,7 +143,7 @@ class Pusher:
 
     def begin(self, lap: Lap) -> None:
         """The force from now on, turned with the robot's heading."""
-        force = self.push.impulse * self.plant.robot.total_mass / self.push.lasts
+        force = self.push.impulse * self.robot.total_mass / self.push.lasts
         towards = heading(rotation(lap.sensed.orientation_wb)) + math.radians(self.push.direction)
         self.plant.push((force * math.cos(towards), force * math.sin(towards), 0.0))
         self.ends = lap.sensed.time + self.push.lasts

@@ -26,6 +26,7 @@ class Walk:
     turn: float = 0.0
     """[rad/s]"""
     method: Method = "qp"
+    plant: str = "mujoco"
     least: float | None = 1.0
     """Share of the starts that must go to the end without a fall; `None` where it is only shown."""
     velocity: float | None = None
@@ -41,6 +42,7 @@ class Walk:
         moves = f" {self.speed:g} m/s" if self.speed else f" {self.turn:g} rad/s" if self.turn else ""
         where = "" if self.scene == "flat" else f" on {self.scene}"
         how = " by LP" if self.method == "lp" else ""
+        how += " on the Armstrong plant" if self.plant == "armstrong" else ""
         return f"{self.robot} {self.skill}{moves}{where}{how}"
 
     @property
@@ -52,7 +54,15 @@ class Walk:
     def trial(self, seed: int, seconds: float) -> Trial:
         """The start of that seed."""
         return Trial(
-            self.robot, self.scene, seconds, seed, self.skill, self.speed, self.turn, method=self.method
+            self.robot,
+            self.scene,
+            seconds,
+            seed,
+            self.skill,
+            self.speed,
+            self.turn,
+            method=self.method,
+            plant=self.plant,
         )
 
 

@@ -18,7 +18,7 @@ import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -143,6 +143,7 @@ class Answer:
     forces_w: np.ndarray  # (legs, 3) N, from ground to foot, zero in swing
 
 
+@runtime_checkable
 class Tick(Protocol):
     """One peer's control tick."""
 
