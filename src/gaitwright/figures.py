@@ -19,7 +19,7 @@ COSTLY = 4.0
 
 @dataclass(frozen=True)
 class Report:
-    """The figures of one trip; the keys of its JSON stay (design.md §6)."""
+    """The figures of one trip; the keys of its JSON stay."""
 
     robot: str
     scene: str

@@ -79,12 +79,6 @@ def turn_y(c, s, a):
     return (c * a[0] + s * a[2], a[1], c * a[2] - s * a[0])
 
 
-@kernel
-def turn_z(c, s, a):
-    """`a` turned about z by the angle with cosine `c` and sine `s` (use `-s` to turn back)."""
-    return (c * a[0] - s * a[1], s * a[0] + c * a[1], a[2])
-
-
 # --- rotations -----------------------------------------------------------------------------------
 @kernel
 def rotation(quaternion):

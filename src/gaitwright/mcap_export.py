@@ -1,4 +1,4 @@
-"""Recording → MCAP with ROS 2 messages in CDR, which Foxglove and Rerun open as they are (design.md §7).
+"""Recording → MCAP with ROS 2 messages in CDR, which Foxglove and Rerun open as they are.
 
 Topics: `/joint_states` (sensor_msgs/JointState: angles, rates, torques), `/tf` (tf2_msgs/TFMessage: world →
 base → the links of every leg), `/tf_static` (their feet), `/gaitwright/changes` (JSON: skill and driver,

@@ -6,7 +6,8 @@ import quadprog
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gaitwright.control.active_set import INFEASIBLE, SOLVED, minimise
+from gaitwright.control.active_set import minimise
+from gaitwright.control.codes import INFEASIBLE, NOT_FINITE, SOLVED
 
 seeds = st.integers(0, 2**32 - 1)
 
@@ -85,3 +86,9 @@ def test_without_unknowns_there_is_nothing_to_solve() -> None:
     empty = np.zeros(0)
     x, prices, code, _ = minimise(np.zeros((0, 0)), empty, np.zeros((0, 0)), empty, empty)
     assert x.size == prices.size == 0 and code == SOLVED
+
+
+def test_a_number_that_is_none_is_told() -> None:
+    hessian, gradient, rows, lower, upper = program(3)
+    gradient[0] = np.nan
+    assert minimise(hessian, gradient, rows, lower, upper)[2] == NOT_FINITE

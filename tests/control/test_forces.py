@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gaitwright.bench.sharing_oracles import Task, by_quadprog
-from gaitwright.control.active_set import INFEASIBLE, SOLVED
+from gaitwright.control.codes import INFEASIBLE, SOLVED
 from gaitwright.control.demand import Load, load_of
 from gaitwright.control.forces import FRICTION, MOST_NORMAL, contact_frame, torques, unmet
 from tasks import HEIGHT, WEIGHT, any_task

@@ -11,11 +11,13 @@ from hypothesis import strategies as st
 from gaitwright.bench.gaits import loads
 from gaitwright.bench.sharing_oracles import Task, by_highs
 from gaitwright.bench.trial import Trial
+from gaitwright.control.certificate import linear_status_of
+from gaitwright.control.codes import INFEASIBLE, SOLVED
 from gaitwright.control.forces import contact_frame
-from gaitwright.control.linear import Shared, limit_name, verdict
-from gaitwright.control.simplex import INFEASIBLE, SOLVED
+from gaitwright.control.linear import Shared
 from gaitwright.control.thesis_program import LinearSettings, settings_of
 from gaitwright.geometry import GRAVITY
+from oracles import robot_called
 from tasks import any_task
 
 seeds = st.integers(0, 2**32 - 1)
@@ -257,22 +259,33 @@ def test_settings_survive_their_array() -> None:
 
 
 def test_the_limit_in_the_way_is_named() -> None:
-    legs = ("FL", "FR", "RL", "RR")
     task = any_task(1, feet=4)
     free = np.zeros((4, 3))
     free[2, 1] = 100.0
     push = np.zeros((4, 3, 3))
     shared = replace(task, load=task.load._replace(free=free, push=push)).linear(CLOSED_LOOP)
-    sentence = "these feet cannot carry this load, no values keep all the limits: the torque of hip 2 of RL"
-    assert verdict(shared.code, shared.culprit, legs) == sentence
-    assert verdict(any_task(1, feet=4, calm=True).linear(CLOSED_LOOP).code, -1, legs) == "solved"
+    dog = robot_called("dog")
+    limit = f"{dog.tau_max[2, 1]:.3g}"
+    sentence = f"these feet cannot carry this load without overloading a joint: leg RL, hip 2, {limit} N·m"
+    assert linear_status_of(dog, shared.code, shared.culprit) == sentence
+    assert linear_status_of(dog, any_task(1, feet=4, calm=True).linear(CLOSED_LOOP).code, -1) == "solved"
 
 
 @pytest.mark.parametrize("components", [3, 6])
-def test_every_quantity_has_a_name(components: int) -> None:
-    legs = ("FL", "FR", "RL", "RR")
+def test_every_culprit_has_a_sentence(components: int) -> None:
+    dog = robot_called("dog")
     count = 4 * components + 1 + 4 * (2 * components + 2) + 6
-    names = [limit_name(q, legs, components) for q in range(count)]
-    assert names[0] == "the foot force of FL" and names[4 * components] == "the peak normal force"
-    assert names[4 * components + 1] == "friction forward of FL" and names[-1] == "the balance of moments"
-    assert len(set(names)) == 4 + 1 + 4 * (2 * components + 2) + 2
+    told = [linear_status_of(dog, INFEASIBLE, q, components) for q in range(count)]
+    assert told[0].endswith("no room is left for the force of foot FL")
+    assert told[4 * components + 1].endswith("without foot FL slipping towards +x")
+    assert told[-1].endswith("force and moment cannot be balanced")
+    # A sentence for each foot's force, each of its limits, and the balance.
+    assert len(set(told)) == 4 + 4 * (2 * components + 1) + 1
+
+
+def test_six_components_tell_what_tipping_costs() -> None:
+    """Small feet under a load far off their middle: the prices of their edges are not nothing."""
+    tiny = SIX._replace(unmet=10.0, roll_lever=1e-3, pitch_lever=1e-3, twist_lever=1e-3)
+    prices = [any_task(seed, feet=2).linear(tiny).prices for seed in range(20)]
+    assert prices[0].shape == (4, 15)
+    assert max(float(np.abs(p[:, 9:]).max()) for p in prices) > 0.0

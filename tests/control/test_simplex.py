@@ -9,8 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import OptimizeResult, linprog
 
+from gaitwright.control.codes import INFEASIBLE, NOT_FINITE, SOLVED, UNBOUNDED
 from gaitwright.control.priced import BOUND, COLUMN, HIGH, LOW, LOWER, UPPER, certificate, program
-from gaitwright.control.simplex import INFEASIBLE, NOT_FINITE, SOLVED, UNBOUNDED, minimise
+from gaitwright.control.simplex import minimise
 
 seeds = st.integers(0, 2**32 - 1)
 NEAR = 1e-7

@@ -9,6 +9,7 @@ from gaitwright.control.certificate import explain, felt_limits
 from gaitwright.control.moments import moment_of, moments_of, row
 from gaitwright.control.numerical import NumericalController
 from gaitwright.control.stream import CHUNK, Efforts, Job, stream
+from gaitwright.control.thesis_program import LinearSettings
 from gaitwright.errors import WrongUse
 from gaitwright.locomotion import Brain, Lap, trip
 from gaitwright.model.robot import Robot
@@ -102,6 +103,17 @@ def test_wrong_moments_are_named(trot: list[Lap]) -> None:
         stream([job, replace(job, moments=broken)])
     with pytest.raises(WrongUse, match="n at least 1, not 0"):
         stream([job], every=0)
+    with pytest.raises(WrongUse, match="3 components of a foot's load, not 6"):
+        stream([replace(job, method="lp", linear=LinearSettings(components=6.0))])
+    with pytest.raises(WrongUse, match="are not 4 × 3 finite numbers"):
+        stream([replace(job, start=np.full((4, 3), np.nan))])
+    with pytest.raises(WrongUse, match="at least 1 core, not -1"):
+        stream([job], cores=-1)
+
+
+def test_no_moments_give_no_torques() -> None:
+    dog = robot_called("dog")
+    assert stream([Job(dog, np.zeros((0, 108)))])[0].tau.shape == (0, 4, 3)
 
 
 # --- the certificate in words ----------------------------------------------------------------------
@@ -128,5 +140,7 @@ def test_ice_is_felt_as_friction(trot: list[Lap]) -> None:
     torques = NumericalController(dog).torques(shove, lap.sensed)
     down = [dog.legs[leg] for leg in np.flatnonzero(shove.stance)]
     sentences = [one.sentence for one in felt_limits(dog, torques)]
-    assert any(f"foot {leg} at its friction limit" in sentence for leg in down for sentence in sentences)
+    assert any(
+        f"foot {leg} at its friction limit towards +y" in sentence for leg in down for sentence in sentences
+    )
     assert torques.residual > 0.1

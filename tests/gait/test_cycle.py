@@ -1,5 +1,7 @@
 """The desired motion of a cycle is consistent in itself, periodic, reachable, and what the NC can realise."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -170,6 +172,17 @@ def test_a_foot_out_of_reach_is_named_with_phase_and_distance():
         desired_cycle(robot, Gait("walk", 18.0, 0.8, (0.75, 0.25, 0.0, 0.5)), (0.9, 0.0))
 
 
+def test_a_joint_beyond_its_limit_is_told_with_the_phase():
+    robot = robot_called("go2")
+    tight = replace(robot, q_max=robot.q_max - [0.0, 0.0, 1.5])
+    with pytest.raises(
+        WrongUse,
+        match=r"go2 cannot walk 'trot' this way: at phase \d\.\d+, leg (FL|FR|RL|RR): "
+        r"knee would stand at -\d\.\d+ rad, beyond its limit of -2\.34 rad",
+    ):
+        desired_cycle(tight, Gait("trot", 0.5, 0.5, (0.0, 0.5, 0.5, 0.0)), (0.3, 0.0))
+
+
 def test_a_gait_must_fit_the_robot_and_lift_its_feet():
     robot = robot_called("hexapod")
     with pytest.raises(WrongUse, match=r"gait 'walk' is for 4 legs; hexapod has 6: FL, FR, ML, MR, RL, RR"):
@@ -177,6 +190,18 @@ def test_a_gait_must_fit_the_robot_and_lift_its_feet():
     stand = Gait("stand", 1.0, 1.0, (0.0,) * 6)
     with pytest.raises(WrongUse, match=r"gait 'stand' lifts no foot \(duty factor 1\): it cannot move"):
         desired_cycle(robot, stand, (0.1, 0.0))
+    for period, duty, told in (
+        (0.0, 0.8, "a period of 0 s; it must be above 0"),
+        (np.nan, 0.8, "a period of nan s"),
+        (1.0, 0.0, "a duty factor of 0; it must be above 0, at most 1"),
+        (1.0, 1.5, r"a duty factor of 1\.5"),
+    ):
+        with pytest.raises(WrongUse, match=told):
+            desired_cycle(robot, Gait("odd", float(period), duty, (0.0,) * 6), (0.0, 0.0))
+    with pytest.raises(WrongUse, match="velocity nan, 0 m/s and yaw rate 0 rad/s: every number must be"):
+        desired_cycle(robot, Gait("walk", 1.0, 0.8, (0.0,) * 6), (np.nan, 0.0))
+    with pytest.raises(WrongUse, match="a lift of nan m was asked for"):
+        desired_cycle(robot, stand, (0.0, 0.0), manner=Manner(lift=np.nan))
     with pytest.raises(WrongUse, match="a cycle of 0 samples is none"):
         desired_cycle(robot, stand, (0.0, 0.0), steps=0)
     still = desired_cycle(robot, stand, (0.0, 0.0), steps=4)

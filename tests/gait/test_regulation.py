@@ -105,6 +105,14 @@ def test_it_says_what_the_plane_is_made_of() -> None:
     assert pose.sentence == "4 feet stand almost on a line: across it the past counts for 50%"
 
 
+def test_feet_above_each_other_are_no_line() -> None:
+    before = Plane(0.1, 0.2, 0.0, 0.0, 0.0)
+    pose = regulate(np.array([[1.0, 2.0, z] for z in (0.0, 0.3, 0.6)]), np.zeros(3), 0.3, before)
+    assert pose.plane == pytest.approx((0.1, 0.2, 1.0, 2.0, 0.3))
+    said = "3 feet stand in one place: the slope is kept, the plane goes through their mean"
+    assert (pose.sentence, pose.determined) == (said, 0.0)
+
+
 def test_without_feet_and_past_it_is_level() -> None:
     pose = regulate(np.empty((0, 3)), np.array([3.0, 4.0, 1.0]), 0.3)
     assert (pose.roll, pose.pitch, pose.height, pose.plane) == (0.0, 0.0, 0.3, LEVEL)

@@ -217,6 +217,10 @@ def test_all_four_postures_of_a_leg() -> None:
     assert branches(robot, "RR", robot.stance[3] * 9.0) == {}
     with pytest.raises(WrongUse, match="no leg 'LF'; there is: FL, FR, RL, RR"):
         branches(robot, "LF", robot.stance[0])
+    with pytest.raises(
+        WrongUse, match=r"leg FR: the foot's place is \[nan, 0.0, 0.0\]; expected three finite"
+    ):
+        branches(robot, "FR", np.array([np.nan, 0.0, 0.0]))
 
 
 # --- reach in words ------------------------------------------------------------------------------

@@ -177,5 +177,7 @@ def test_a_profile_says_what_it_cannot_do(rng: np.random.Generator) -> None:
         at_speed(profile, -1.0)
     with pytest.raises(WrongUse, match="moment 99 s asked of a profile from"):
         warped(profile, one, 99.0 * one, one, one)
+    with pytest.raises(WrongUse, match="moment nan asked of a profile: it is not finite"):
+        warped(profile, one, np.nan * one, one, one)
     with pytest.raises(WrongUse, match="use free_profile"):
         leg_profile(robot, [s for s, _ in plain], np.stack([a.qdd for _, a in plain]))

@@ -1,5 +1,6 @@
 """The thesis's plant: as MuJoCo in the air, by the laws on the ground; robots stand and walk on it."""
 
+import json
 import subprocess
 import sys
 from dataclasses import replace
@@ -87,10 +88,47 @@ def test_a_plant_is_asked_for_by_name() -> None:
             {"name": "armstrong", "timestep": 0.003},
             "a step of 3 ms does not divide the control period of 2 ms",
         ),
+        (
+            {"name": "mujoco", "refresh": 2},
+            "plant mujoco has no slow coefficients to refresh at every 2. step",
+        ),
+        ({"name": "armstrong", "refresh": 0}, "refreshed every 1, 2, 3 … steps, not every 0"),
         ({"name": "armstrong", "integrator": "eulr"}, "no integrator 'eulr'.*did you mean 'euler'?"),
     ):
         with pytest.raises(WrongUse, match=sentence):
             make_plant(**words, robot=robot, scene=FLAT)
+
+
+@pytest.mark.parametrize("name", ["mujoco", "armstrong"])
+def test_numbers_that_no_plant_can_do_are_refused(name: str) -> None:
+    robot = robot_called("thesis")
+    for step, sentence in (
+        (1e-300, r"a step of 1e-297 ms is asked; the least is 0.0002 ms"),
+        (1e-320, r"the least is 0.0002 ms"),
+        (1.9e-7, r"a step of 0.00019 ms is asked; the least is 0.0002 ms"),
+        (0.0, "a step of 0 ms is asked; steps are finite and greater than 0"),
+        (np.nan, "a step of nan ms is asked"),
+        (np.inf, "a step of inf ms is asked"),
+    ):
+        with pytest.raises(WrongUse, match=sentence):
+            make_plant(name, robot, FLAT, timestep=float(step))
+    plant = make_plant(name, robot, FLAT, timestep=0.0001)
+    for force in ((np.nan, 0.0, 0.0), (0.0, -np.inf, 0.0)):
+        with pytest.raises(WrongUse, match="forces are finite numbers"):
+            plant.push(force)
+    assert plant.step(off(robot)).is_finite()
+
+
+@pytest.mark.parametrize("tolerance", [0.0, -1e-4, np.nan, np.inf])
+def test_a_tolerance_that_is_none_is_refused(tolerance: float) -> None:
+    with pytest.raises(WrongUse, match="it is finite and greater than 0"):
+        ArmstrongPlant(robot_called("thesis"), FLAT, integrator="adaptive", tolerance=float(tolerance))
+
+
+def test_older_slow_coefficients_move_it_almost_alike() -> None:
+    robot = robot_called("thesis")
+    fresh, old = (hold(make_plant("armstrong", robot, FLAT, refresh=n), "walk", 0.2)["q"][-1] for n in (1, 4))
+    assert 0.0 < np.abs(fresh - old).max() < 1e-3
 
 
 def test_it_needs_no_mujoco() -> None:
@@ -323,6 +361,22 @@ def test_the_plane_of_a_box_is_that_of_its_nearest_point(seed: int) -> None:
         assert own == pytest.approx(known, abs=1e-9) if known > 0.0 else own <= 0.0
 
 
+def test_two_boxes_side_by_side_push_once() -> None:
+    robot = robot_called("thesis")
+    tiles = tuple(Box(x, 0.0, 0.0, 1.0, 4.0, 0.1) for x in (-0.5, 0.5, 1.5, -1.5))
+    for shift in (0.0, 0.003):
+        ahead = float(robot.stance[:, 0].max()) + shift
+        scene = Scene("tiles", Flat(), tiles, start=(-ahead, 0.0, 0.0))
+        plant = ArmstrongPlant(robot, scene)
+        plant.reset(vary=False)
+        planes = plant.ground.planes(plant.centres).reshape(robot.n, SLOTS, 6)
+        on_seam = int(np.abs(plant.centres[:, 0]).argmin())
+        near = planes[on_seam, :, 2] > NOWHERE / 2
+        assert near.sum() == 2  # the floor below, and one of the two tiles
+        load = hold(plant, "stand", 1.5)["load"][-100:].sum(axis=1)
+        np.testing.assert_allclose(load, robot.total_mass * GRAVITY, rtol=0.02)
+
+
 def test_a_foot_in_the_corner_of_a_stair_touches_tread_and_riser() -> None:
     scene = load_scene("stairs:0.1")
     edge = min(box.x - box.lx / 2 for box in scene.boxes[1:])
@@ -399,6 +453,14 @@ def test_the_recursion_is_checked_while_it_runs() -> None:
     plant = ArmstrongPlant(robot_called("thesis"), FLAT, check=True)
     hold(plant, "walk", 0.2)
     assert 0.0 < plant.worst_residual < 1e-10
+    parts(plant.system, plant.state).v[:] = np.nan
+    plant.step(off(plant.robot))
+    plant.reset()
+    assert plant.worst_residual == 0.0
+    parts(plant.system, plant.state).w[:] = np.nan
+    for _ in range(2):
+        plant.step(off(plant.robot))
+    assert np.isnan(plant.worst_residual)
 
 
 def test_the_closure_sees_what_the_controller_did_not_want() -> None:
@@ -435,6 +497,23 @@ def test_the_command_line_walks_on_it_and_reports_the_checks(capsys: pytest.Capt
     out = capsys.readouterr().out
     assert "recursion" in out and "off the closed form by" in out
     assert "centre of mass off by" in out
+    assert "recursion of the controller" in out and "(worst of 3)" in out
+    assert "dearest limit" in out
+
+
+@pytest.mark.parametrize("more", [[], ["--plant", "armstrong", "--refresh", "2"]])
+def test_the_checks_are_figures_too(more: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["skill", "--robot", "thesis", "--skill", "walk", "--seconds", "0.3", "--json", "-", *more]
+    assert main(words) == 0
+    bare = json.loads(capsys.readouterr().out)
+    assert main([*words, "--check"]) == 0
+    report = json.loads(capsys.readouterr().out)
+    checks = report.pop("checks")
+    assert report.keys() == bare.keys() and report["state_hash"] == bare["state_hash"]
+    assert checks["recursion_compared"] == 4
+    assert 0.0 < checks["recursion_worst"] < 1e-9
+    assert checks["motion_off_worst_mps2"] >= checks["motion_off_median_mps2"] > 0.0
+    assert (checks["plant_recursion_worst"] is None) == (not more)
 
 
 @pytest.mark.parametrize(
@@ -450,6 +529,9 @@ def test_the_command_line_walks_on_it_and_reports_the_checks(capsys: pytest.Capt
         ),
         (["--integrator", "rk4"], "'rk4' goes with plant armstrong"),
         (["--plant", "armstrong", "--timestep", "0.001"], "its restorative spring needs steps of at most 0."),
+        (["--refresh", "2"], "plant mujoco has no slow coefficients to refresh at every 2. step"),
+        (["--refresh", "0"], "'0' is not a whole number from 1"),
+        (["--timestep", "1e-300"], "a step of 1e-297 ms is asked; the least is 0.0002 ms"),
         (["--timestep", "-1"], "-1 is not greater than 0"),
     ],
 )

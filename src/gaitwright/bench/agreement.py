@@ -10,7 +10,7 @@ import numpy as np
 from gaitwright.bench.figure import Figure, at_most, count
 from gaitwright.bench.session import Session
 from gaitwright.bench.sharing_oracles import Task, by_highs, by_quadprog, missing
-from gaitwright.control.active_set import INFEASIBLE, SOLVED
+from gaitwright.control.codes import INFEASIBLE, SOLVED
 from gaitwright.control.numerical import PLAIN
 from gaitwright.control.thesis_program import LinearSettings
 
@@ -67,17 +67,20 @@ def agreement(session: Session, loads: Sequence[Task]) -> Iterator[Figure]:
     """Figures of both programs; not measured where their oracles are not installed."""
     linear, quadratic = "linear program against HiGHS", "quadratic program against quadprog"
     if why := missing():
-        for what, unit, bound in ((linear, "", OBJECTIVE), (quadratic, "N", FORCE)):
+        warmly = f"{linear}, from the last basis"
+        for what, unit, bound in ((linear, "", OBJECTIVE), (warmly, "", OBJECTIVE), (quadratic, "N", FORCE)):
             yield Figure(f"{what}: worst difference", math.nan, unit, at_most(bound), 0, why)
         return
-    lp, qp, rng = Tally(OBJECTIVE), Tally(FORCE), np.random.default_rng(session.seed)
+    lp, warm, qp = Tally(OBJECTIVE), Tally(OBJECTIVE), Tally(FORCE)
+    rng = np.random.default_rng(session.seed)
     kinds = list(KINDS.items())
     for number, load in enumerate(loads):
         session.voice.say(f"sharing: comparing, {number} of {len(loads)} loads", now=False)
         task = weakened(load, rng) if number % 2 else load
-        compare_linear(lp, *kinds[rng.integers(len(kinds))], task)
+        compare_linear((lp, warm), *kinds[rng.integers(len(kinds))], task, loads[max(number - 1, 0)])
         compare_quadratic(qp, task)
     yield from lp.figures(linear, "")
+    yield from warm.figures(f"{linear}, from the last basis", "")
     yield from qp.figures(quadratic, "N")
 
 
@@ -87,12 +90,23 @@ def weakened(task: Task, rng: np.random.Generator) -> Task:
     return replace(task, tau_max=task.tau_max * np.exp(rng.uniform(low, high)))
 
 
-def compare_linear(tally: Tally, kind: str, asked: LinearSettings, task: Task) -> None:
-    """Our objective and HiGHS's."""
-    ours, theirs = task.linear(asked), by_highs(task, asked)
+def compare_linear(
+    tallies: tuple[Tally, Tally], kind: str, asked: LinearSettings, task: Task, before: Task
+) -> None:
+    """Our objective and HiGHS's: ours without hints, and from the basis that `before` leaves, as it walks."""
+    theirs = by_highs(task, asked)
     code = {0: SOLVED, 2: INFEASIBLE}.get(theirs.status, -1)
-    difference = float(abs(ours.objective - theirs.fun)) if theirs.success else math.nan
-    tally.add(kind, ours.code, code, difference)
+    for tally, hints in zip(tallies, (None, last_basis(task, before, asked)), strict=True):
+        ours = task.linear(asked, hints)
+        difference = float(abs(ours.objective - theirs.fun)) if theirs.success else math.nan
+        tally.add(kind, ours.code, code, difference)
+
+
+def last_basis(task: Task, before: Task, asked: LinearSettings) -> np.ndarray | None:
+    """Hints of the load before on the same motors; `None` where that was another robot's."""
+    if before.stance.size != task.stance.size or before.weight != task.weight:
+        return None
+    return replace(before, tau_max=task.tau_max).linear(asked).basis
 
 
 def compare_quadratic(tally: Tally, task: Task) -> None:

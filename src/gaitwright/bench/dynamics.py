@@ -7,20 +7,26 @@ from time import perf_counter_ns
 
 import numpy as np
 
+from gaitwright.bench.dynamics_agreement import (
+    any_state,
+    armstrong_agreement,
+    closed_form_agreement,
+    direct_agreement,
+    inverse_agreement,
+    pinocchio_state,
+)
 from gaitwright.bench.figure import Figure, Wanted, at_most
 from gaitwright.bench.oracles import ball_model, hinge_model, pinocchio
 from gaitwright.bench.session import Session
 from gaitwright.geometry import GRAVITY, rotation
 from gaitwright.model.dynamics.armstrong import packed_accelerations
-from gaitwright.model.dynamics.newton_euler import dynamics_in, dynamics_of, state_numbers
+from gaitwright.model.dynamics.newton_euler import dynamics_of
 from gaitwright.model.dynamics.tree import ball_rotations, ball_tree, packed
 from gaitwright.model.robot import Robot
 from gaitwright.plant.models import load_robot
 
 ROUNDS, CALLS = 200, 100
 QUICK_ROUNDS = 20
-STATES = 200
-"""Random states of each robot whose answers are compared."""
 NOTE = (
     "Dynamics: every round times each contender once, from Python, in turns; a ratio is the median of the "
     "ratios of all rounds. Ours gives wrench, torques, feet and Jacobians in one call; Pinocchio's RNEA "
@@ -39,11 +45,16 @@ def measure(session: Session) -> Iterator[Figure]:
     yield from inverse(pin, go2, rounds)
     yield from direct(pin, thesis, rounds)
     yield growth(rounds)
+    session.voice.say("dynamics: comparing answers")
+    robots = (go2, thesis, load_robot("hexapod"))
+    for robot in robots:
+        yield closed_form_agreement(robot, session.seed)
     if pin is None:
         return
-    session.voice.say("dynamics: comparing answers")
-    for robot in (go2, thesis, load_robot("hexapod")):
-        yield agreement(pin, robot, session.seed)
+    for robot in robots:
+        yield inverse_agreement(pin, robot, session.seed)
+    yield direct_agreement(pin, go2, session.seed)
+    yield from armstrong_agreement(pin, thesis, session.seed)
 
 
 def inverse(pin, robot: Robot, rounds: int) -> Iterator[Figure]:
@@ -52,7 +63,7 @@ def inverse(pin, robot: Robot, rounds: int) -> Iterator[Figure]:
     calls: dict[str, Callable[[], object]] = {"ours": lambda: dynamics_of(robot.packed, state)}
     if pin:
         model = hinge_model(robot)
-        data, q, v, a = model.createData(), *pinocchio_state(pin, robot, state)
+        data, q, v, a = model.createData(), *pinocchio_state(robot, state)
         calls["theirs"] = lambda: pin.rnea(model, data, q, v, a)
     what = f"{robot.name}: inverse dynamics with feet and Jacobians over Pinocchio's RNEA"
     yield from compared(what, calls, rounds, at_most(1.0))
@@ -133,34 +144,3 @@ def compared(what: str, calls: Calls, rounds: int, wanted: Wanted) -> Iterator[F
     each = [a / b for a, b in zip(times["ours"], times["theirs"], strict=True)]
     note = f"{ours:.1f} µs over {median(times['theirs']):.1f} µs"
     yield Figure(what, median(each), "×", wanted, rounds, note, {"each_round": each})
-
-
-# --- agreement -------------------------------------------------------------------------------------
-def any_state(robot: Robot, rng: np.random.Generator) -> np.ndarray:
-    """A robot in rapid motion, as `dynamics_of` reads it."""
-    w, wd, a = rng.normal(0.0, 3.0, (3, 3))
-    q, qd, qdd = rng.normal(0.0, 2.0, (3, robot.n, 3))
-    return state_numbers(w, wd, a, q, qd, qdd)
-
-
-def pinocchio_state(pin, robot: Robot, state: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """q, v and a of the same state, base upright at the origin and at rest but for its spin."""
-    w, wd, a = state[:9].reshape(3, 3)
-    q, qd, qdd = state[9:].reshape(3, -1)
-    upright = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
-    true = a - (0.0, 0.0, GRAVITY)  # ours is less gravity
-    return np.append(upright, q), np.concatenate([np.zeros(3), w, qd]), np.concatenate([true, wd, qdd])
-
-
-def agreement(pin, robot: Robot, seed: int) -> Figure:
-    """Largest relative difference from Pinocchio over random states."""
-    model = hinge_model(robot)
-    data, rng, worst = model.createData(), np.random.default_rng(seed), 0.0
-    for _ in range(STATES):
-        state = any_state(robot, rng)
-        ours = dynamics_in(dynamics_of(robot.packed, state))
-        theirs = pin.rnea(model, data, *pinocchio_state(pin, robot, state))
-        both = np.concatenate([ours.wrench, ours.tau.ravel()])
-        worst = max(worst, float(np.abs(both - theirs).max() / np.abs(theirs).max()))
-    what = f"{robot.name}: inverse dynamics against Pinocchio, largest relative difference"
-    return Figure(what, worst, "", at_most(1e-10), STATES)

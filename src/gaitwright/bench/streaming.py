@@ -11,6 +11,8 @@ from gaitwright.bench.session import Session
 from gaitwright.control.moments import moments_of
 from gaitwright.control.stream import Efforts, Job, stream
 from gaitwright.gait.cycle import desired_cycle
+from gaitwright.model.dynamics.closed_chain import reuse_errors
+from gaitwright.model.robot import Robot
 from gaitwright.plant.models import load_robot
 from gaitwright.profiles import torque_profiles
 from gaitwright.skills.library import fastest, find_skill, gait_of
@@ -22,12 +24,18 @@ JOBS = 16
 REPEATS = 5
 HELD = (2, 5, 10, 25)
 """Ticks for which the dynamics are held where they are reused."""
+MOVES = (0.01, 0.05, 0.1)
+"""Straight moves for which A, B, C, D are reused, in body heights."""
+STRAIGHT, INSTANTS = 0.4, 48
+"""Speed of the straight move [m/s], and moments of a trot's cycle from which it starts."""
 FLEET = ("go2", "hexapod", "thesis")
 SPEEDS = 5
 NOTE = (
     "Stream: a complete solution is feedback, inverse dynamics with feet and Jacobians, quadratic program "
     "and torques of one moment. Rates are the best of five runs by the wall clock: threads need both cores "
-    "to themselves. Held dynamics: accelerations, Jacobians and free torques of a moment serve the next ones."
+    "to themselves. Held dynamics: accelerations, Jacobians and free torques of a moment serve the next "
+    "ones. Reused A, B, C, D: steady straight motion over planted feet, torques of the smallest foot "
+    "wrenches that balance the base, with the maps of the start against those of the end; no feedback."
 )
 
 
@@ -49,6 +57,7 @@ def measure(session: Session) -> Iterator[Figure]:
     exact = stream([job])[0]
     yield equality(trot, moments, exact)
     yield from (holding(job, exact, ticks) for ticks in HELD)
+    yield from reusing(trot.brain.robot)
     yield fleet(session)
 
 
@@ -75,6 +84,18 @@ def holding(job: Job, exact: Efforts, ticks: int) -> Figure:
     what = f"dynamics held for {ticks} ticks ({2 * ticks} ms): torque error, RMS over RMS"
     note = f"largest {float(np.abs(error).max()):.2g} N·m"
     return Figure(what, float(np.sqrt(np.mean(error**2))) / size, "", None, len(error), note)
+
+
+def reusing(robot: Robot) -> Iterator[Figure]:
+    """What it costs to reuse the maps A, B, C, D for a straight move, wherever in a trot it starts."""
+    cycle = desired_cycle(robot, gait_of(find_skill("trot", robot), robot), (STRAIGHT, 0.0), steps=INSTANTS)
+    moves = robot.height * np.array(MOVES)
+    starts = [i for i in range(cycle.steps) if cycle.stance[i].any()]
+    errors = np.array([reuse_errors(robot, cycle.sensed(i), cycle.stance[i], moves) for i in starts])
+    for move, column in zip(MOVES, errors.T, strict=True):
+        what = f"{robot.name}: A, B, C, D reused over {100 * move:g} % of the body height: torque error"
+        note = f"largest, as a share of the largest torque; median {np.median(column):.2g}"
+        yield Figure(what, float(column.max()), "", None, len(starts), note)
 
 
 def fleet(session: Session) -> Figure:

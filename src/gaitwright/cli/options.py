@@ -11,6 +11,7 @@ from typing import NamedTuple, NoReturn
 
 from gaitwright.cli.words import (
     DRIVERS,
+    count,
     distribution,
     driver,
     duration,
@@ -270,13 +271,21 @@ def add_run(parser: argparse.ArgumentParser, seconds: float) -> None:
 
 
 def add_plant(parser: argparse.ArgumentParser) -> None:
-    world = f"whose mechanics move the robot: {listed(PLANTS)} (mujoco)"
+    world = (
+        f"whose mechanics move the robot: {listed(PLANTS)}; on plant armstrong only feet touch ground and "
+        "boxes (mujoco)"
+    )
     parser.add_argument("--plant", type=plant, default="mujoco", metavar="NAME", help=world)
     how = f"how plant armstrong steps through time: {listed(INTEGRATORS)} (semi-implicit)"
     parser.add_argument("--integrator", type=integrator, metavar="NAME", help=how)
     step = "step of the physics in seconds, a part of 0.002 (mujoco: all of it; armstrong: what is safe)"
     parser.add_argument("--timestep", type=positive, metavar="SECONDS", help=step)
-    check = "compare produced with desired motion, and plant armstrong's recursion with the closed form"
+    often = "plant armstrong: slow coefficients of the recursion at every N-th step (1)"
+    parser.add_argument("--refresh", type=count, metavar="N", help=often)
+    check = (
+        "compare produced with desired motion and recursions with their closed forms, and tell the limit "
+        "that cost most"
+    )
     parser.add_argument("--check", action="store_true", help=check)
 
 

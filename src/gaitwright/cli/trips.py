@@ -1,5 +1,6 @@
 """What `mission`, `skill` and `demo` share: robot and scene by name, the run, its progress, the report."""
 
+import json
 import math
 from argparse import Namespace
 from collections.abc import Callable
@@ -8,6 +9,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from time import perf_counter
 
+from gaitwright.cli.checking import Checks
 from gaitwright.cli.console import Simulating, remark, show_pairs, working
 from gaitwright.cli.output import check_folder, check_json, write_json, write_whole
 from gaitwright.compiled import is_warm
@@ -17,7 +19,6 @@ from gaitwright.locomotion import Brain, Chooser, Lap
 from gaitwright.model.robot import Robot
 from gaitwright.model.scene import Scene, load_scene
 from gaitwright.plant.choose import SimulatedPlant, make_plant
-from gaitwright.plant.closure import Closure
 from gaitwright.plant.models import load_robot_and_notes
 from gaitwright.recording import INTERRUPTED, Recording, Report, walk
 from gaitwright.signals import Mission
@@ -109,17 +110,24 @@ def run(
     )
     with working(what, worth_a_line=cold):
         plant = make_plant(
-            args.plant, setting.robot, setting.scene, DT, args.integrator, args.timestep, args.check
+            args.plant,
+            setting.robot,
+            setting.scene,
+            DT,
+            args.integrator,
+            args.timestep,
+            args.check,
+            args.refresh,
         )
     warm_up(setting, plant, mission)
-    closure = Closure(setting.robot, DT) if args.check else None
+    checks = Checks.of(setting.robot, plant) if args.check else None
     began = perf_counter()
     with Simulating(args.seconds) as progress:
 
         def watch(lap: Lap) -> None:
             progress(lap)
-            if closure:
-                closure.add(lap.sensed, lap.torques)
+            if checks:
+                checks.add(lap)
             if on_lap:
                 on_lap(plant, lap)
 
@@ -129,7 +137,7 @@ def run(
     if not len(recording):
         raise KeyboardInterrupt
     wall = perf_counter() - began
-    return finish(setting, recording, args, wall, checks(plant, closure) if closure else [])
+    return finish(setting, recording, args, wall, checks)
 
 
 def warm_up(setting: Setting, plant: SimulatedPlant, mission: Mission) -> None:
@@ -141,21 +149,15 @@ def warm_up(setting: Setting, plant: SimulatedPlant, mission: Mission) -> None:
 
 
 # --- after the run ---------------------------------------------------------------------------------
-def checks(plant: SimulatedPlant, closure: Closure) -> list[tuple[str, str]]:
-    """What `--check` found (row N8)."""
-    residual = getattr(plant, "worst_residual", None)
-    recursion = [] if residual is None else [("recursion", f"off the closed form by {residual:.0e} (worst)")]
-    return [*recursion, ("motion", closure.sentence())]
-
-
 def finish(
-    setting: Setting, recording: Recording, args: Namespace, wall: float, checked: list[tuple[str, str]]
+    setting: Setting, recording: Recording, args: Namespace, wall: float, checks: Checks | None = None
 ) -> int:
     """Writes and prints the report, leaves the files that were asked for; returns the exit code."""
     report = recording.report()
     aside = args.json == "-"
-    kept = keep(recording, report, Path(args.out)) if args.out else []
-    write_json(args.json, report.to_json())
+    text, checked = as_json(report, checks), checks.table() if checks else []
+    kept = keep(recording, text, Path(args.out)) if args.out else []
+    write_json(args.json, text)
     title = f"{report.robot} in {report.scene}, seed {report.seed}: {report.stopped_because}"
     goal = report.arrived or not recording.done
     show_pairs(title, [*table_of(report, wall, goal), *checked, *kept], to_stderr=aside)
@@ -197,9 +199,17 @@ def table_of(report: Report, wall: float, goal: bool) -> list[tuple[str, str]]:
     ]
 
 
-def keep(recording: Recording, report: Report, folder: Path) -> list[tuple[str, str]]:
+def as_json(report: Report, checks: Checks | None) -> str:
+    """The report as JSON, with what `--check` found under `checks` where that was asked for."""
+    if not checks:
+        return report.to_json()
+    figures = {**json.loads(report.to_json()), "checks": checks.numbers()}
+    return json.dumps(figures, indent=2, ensure_ascii=False)
+
+
+def keep(recording: Recording, report: str, folder: Path) -> list[tuple[str, str]]:
     """Leaves recording and report in a folder; what each is, and where."""
-    write_whole(folder / "report.json", report.to_json() + "\n")
+    write_whole(folder / "report.json", report + "\n")
     saved = recording.save(folder / "recording.npz")
     return [("report", str(folder / "report.json")), ("recording", str(saved))]
 

@@ -46,6 +46,12 @@ def seed(text: str) -> int:
     return int(text)
 
 
+def count(text: str) -> int:
+    if not re.fullmatch(r"0*[1-9]\d{0,8}", text):
+        raise argparse.ArgumentTypeError(f"{text.strip()!r} is not a whole number from 1 to 10^9")
+    return int(text)
+
+
 def point(text: str) -> tuple[float, float]:
     parts = text.split(",")
     if len(parts) != 2:

@@ -11,8 +11,8 @@ import math
 import numpy as np
 
 from gaitwright.compiled import kernel
+from gaitwright.control.codes import INFEASIBLE, NOT_FINITE, SOLVED, TOO_MANY_STEPS
 
-SOLVED, INFEASIBLE, TOO_LONG = 0, 1, 2
 TOLERANCE = 1e-10
 """A limit violated by less than this, in the units of its row, is kept."""
 VANISHED = 1e-13
@@ -24,7 +24,7 @@ def minimise(hessian, gradient, rows, lower, upper):
     """Minimises ½ xᵀHx + gᵀx with `lower` ≤ (x, `rows` @ x) ≤ `upper`; H is positive definite.
 
     Returns x `(n,)`, prices `(k,)` with H x + g = Σ prices · rows (positive at a lower bound, negative
-    at an upper one, 0 where a limit is not felt), SOLVED, INFEASIBLE or TOO_LONG, and the limit that no
+    at an upper one, 0 where a limit is not felt), a code, and the limit that no
     x can keep beside the others where it is infeasible, else −1; the prices are then those of the others.
     """
     n, k = gradient.size, lower.size
@@ -39,7 +39,7 @@ def minimise(hessian, gradient, rows, lower, upper):
         worst, sign, short = most_violated(rows, lower, upper, x)
         if worst < 0:
             write_prices(prices, active, side, price, q)
-            return x, prices, SOLVED, -1
+            return x, prices, SOLVED if math.isfinite(x.sum()) else NOT_FINITE, -1
         price[q] = 0.0
         while short > 0.0:
             project(basis, rows, worst, sign, d)
@@ -66,7 +66,7 @@ def minimise(hessian, gradient, rows, lower, upper):
             active[q], side[q] = worst, sign
             q += 1
             break
-    return x, prices, TOO_LONG, -1
+    return x, prices, TOO_MANY_STEPS, -1
 
 
 @kernel

@@ -5,14 +5,17 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Bool
 
-from gaitwright.control.active_set import INFEASIBLE, SOLVED
-from gaitwright.control.forces import FRICTION
+from gaitwright.control.codes import INFEASIBLE, SENTENCES
 from gaitwright.model.kinematics import HINGES
 from gaitwright.model.robot import Robot
 from gaitwright.signals import Torques
 
 SENSIBLE = 1e-9
 """Prices below this share of the largest one are those of a limit that is touched by chance."""
+SIDES = ("+x", "-x", "+y", "-y")
+"""Where the tangents of the ground point, in the world's axes; on a slope, along it."""
+MOMENTS = (*SIDES, "+z", "-z")
+"""The axes about which a foot with six components tips or twists."""
 
 
 class Felt(NamedTuple):
@@ -39,13 +42,11 @@ def felt_limits(robot: Robot, torques: Torques) -> tuple[Felt, ...]:
 
 
 def limit_words(robot: Robot, torques: Torques, leg: int, limit: int) -> str:
-    """One limit of one foot as a sentence with its number."""
+    """One limit of one foot, numbered as in `forces`, as a sentence with its number."""
     foot = f"foot {robot.legs[leg]}"
     force = float(np.linalg.norm(torques.forces_w[leg]))
     if limit < 4:
-        return (
-            f"{foot} at its friction limit: {FRICTION:g} of its normal force sideways, {force:.1f} N in all"
-        )
+        return f"{foot} at its friction limit towards {SIDES[limit]}: {force:.1f} N in all"
     if limit == 4:
         return f"{foot} at its contact limit: to give more it would have to pull on the ground"
     if limit == 5:
@@ -58,30 +59,49 @@ def joint_words(robot: Robot, leg: int, joint: int) -> str:
     return f"{HINGES[joint]}, {robot.tau_max[leg, joint]:.3g} N·m"
 
 
-def status_of(robot: Robot, code: int, culprit: int, stance: Bool[np.ndarray, "legs"]) -> str:
-    """`solved`, or why there is no distribution, as a sentence.
-
-    `culprit`: the limit that the others leave no room for, in the order of `forces.limit_rows`: bounds of
-    the forces (3 each foot), friction (4), torques (3).
-    """
-    if code == SOLVED:
-        return "solved"
-    if code != INFEASIBLE:
-        return "the force distribution took too many steps"
-    down = np.flatnonzero(stance)
-    m = len(down)
-    if culprit < 7 * m:
-        leg = down[culprit // 3 if culprit < 3 * m else (culprit - 3 * m) // 4]
-        return f"these feet cannot carry this load: no room is left for the force of foot {robot.legs[leg]}"
-    k, joint = divmod(culprit - 7 * m, 3)
-    return (
-        "these feet cannot carry this load without overloading a joint: "
-        f"leg {robot.legs[down[k]]}, {joint_words(robot, int(down[k]), joint)}"
-    )
-
-
 def explain(robot: Robot, torques: Torques) -> str:
     """The whole certificate of a tick: status, what is missing of the wanted wrench, and every limit felt."""
     lines = [f"{torques.status}; {torques.residual:.1%} of the weight is missing of the wanted wrench"]
     lines += [f"{felt.sentence} (price {felt.price:.3g})" for felt in felt_limits(robot, torques)]
     return "\n".join(lines)
+
+
+# --- why there is none -----------------------------------------------------------------------------
+def status_of(robot: Robot, code: int, culprit: int, stance: Bool[np.ndarray, "legs"]) -> str:
+    """How the quadratic program ended, as a sentence.
+
+    `culprit`: the limit that the others leave no room for, in the order of `forces.limit_rows`: bounds of
+    the forces (3 each foot), friction (4), torques (3); -1: none.
+    """
+    if code != INFEASIBLE or culprit < 0:
+        return SENTENCES[code]
+    down = np.flatnonzero(stance)
+    m = len(down)
+    if culprit < 7 * m:
+        leg = down[culprit // 3 if culprit < 3 * m else (culprit - 3 * m) // 4]
+        return f"{SENTENCES[code]}: no room is left for the force of foot {robot.legs[leg]}"
+    k, joint = divmod(culprit - 7 * m, 3)
+    return overloaded(robot, int(down[k]), joint)
+
+
+def linear_status_of(robot: Robot, code: int, culprit: int, components: int = 3) -> str:
+    """How the linear program ended, as a sentence; `culprit` as in `linear.Shared`."""
+    if code != INFEASIBLE or culprit < 0:
+        return SENTENCES[code]
+    n, each = components * robot.n + 1, 2 * components + 2
+    if culprit < n - 1:
+        foot = robot.legs[culprit // components]
+        return f"{SENTENCES[code]}: no room is left for the force of foot {foot}"
+    leg, row = divmod(culprit - n, each)
+    if culprit == n - 1 or leg >= robot.n or row == 7:
+        return f"{SENTENCES[code]}: force and moment cannot be balanced"
+    if 4 <= row < 7:
+        return overloaded(robot, leg, row - 4)
+    what = f"slipping towards {SIDES[row]}" if row < 4 else f"turning over about {MOMENTS[row - 8]}"
+    return f"{SENTENCES[code]} without foot {robot.legs[leg]} {what}"
+
+
+def overloaded(robot: Robot, leg: int, joint: int) -> str:
+    """No forces keep a joint within its torque limit."""
+    which = f"leg {robot.legs[leg]}, {joint_words(robot, leg, joint)}"
+    return f"{SENTENCES[INFEASIBLE]} without overloading a joint: {which}"

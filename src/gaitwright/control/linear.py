@@ -9,8 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from gaitwright.compiled import kernel
+from gaitwright.control.codes import SOLVED
 from gaitwright.control.priced import BOUND, COLUMN, HIGH, LOW, LOWER, UPPER, price_of
-from gaitwright.control.simplex import SENTENCES, SOLVED, minimise
+from gaitwright.control.simplex import minimise
 from gaitwright.control.thesis_program import linear_program, settings_of
 
 
@@ -21,12 +22,13 @@ class Shared(NamedTuple):
     """`(components · feet,)` the unknowns of the stance feet."""
     prices: np.ndarray
     """`(legs, 9)` how much the objective falls per unit that a limit moves out: friction +t1, −t1, +t2, −t2,
-    normal force at 0 and at its bound, and torques of three joints: + at the upper limit, − at the lower."""
+    normal force at 0 and at its bound, and torques of three joints: + at the upper limit, − at the lower.
+    Six components: `(legs, 15)`, then tipping ±t1, ±t2 and twisting ±n."""
     unmet: np.ndarray
     """`(6,)` the scaled balance that is missing."""
     objective: float
     code: int
-    """Of `simplex.SENTENCES`."""
+    """Of `codes.SENTENCES`."""
     culprit: int
     """The quantity that cannot be kept within its limits, numbered as in `basis`; -1: none."""
     basis: np.ndarray
@@ -102,8 +104,8 @@ def limit_price(t, q, y):
 
 @kernel
 def limit_prices(t, y, down, c, legs):
-    """Prices of the limits `(legs, 9)`, as in `Shared`."""
-    out = np.zeros((legs, 9))
+    """Prices of the limits `(legs, 9)`, with six components `(legs, 15)`, as in `Shared`."""
+    out = np.zeros((legs, 15 if c == 6 else 9))
     n, each = c * down.size + 1, 2 * c + 2
     for k in range(down.size):
         prices, r, normal = out[down[k]], n + each * k, c * k + 2
@@ -113,6 +115,8 @@ def limit_prices(t, y, down, c, legs):
         prices[4], prices[5] = max(-price, 0.0), max(price, 0.0)
         for j in range(3):
             prices[6 + j] = limit_price(t, r + 4 + j, y[r + 4 + j])
+        for i in range(9, out.shape[1]):
+            prices[i] = limit_price(t, r + i - 1, y[r + i - 1])
     return out
 
 
@@ -144,7 +148,9 @@ def distribute_linear(
     down = np.flatnonzero(stance)
     basis = np.full(c * legs + 1, -1)
     if down.size == 0:
-        return Shared(np.zeros(0), np.zeros((legs, 9)), np.zeros(6), 0.0, SOLVED, -1, basis, 0)
+        return Shared(
+            np.zeros(0), np.zeros((legs, 15 if c == 6 else 9)), np.zeros(6), 0.0, SOLVED, -1, basis, 0
+        )
     t = linear_program(
         load_numbers, stance, share, normal, previous, tau_max, weight, height, qd, settings_numbers
     )
@@ -158,34 +164,3 @@ def distribute_linear(
         culprit = lasting(culprit, down, c, legs)
     prices = limit_prices(t, y, down, c, legs)
     return Shared(x[: c * down.size], prices, unmet, objective, code, culprit, basis, steps)
-
-
-# --- in words ------------------------------------------------------------------------------------
-LIMITS = (
-    *("friction forward", "friction backward", "friction to the left", "friction to the right"),
-    *("the torque of hip 1", "the torque of hip 2", "the torque of the knee", "the peak normal force"),
-    *("tipping to the left", "tipping to the right", "tipping forward", "tipping backward"),
-    *("twisting to the left", "twisting to the right"),
-)
-"""What the rows of a foot limit."""
-
-
-def limit_name(quantity: int, legs: tuple[str, ...], components: int = 3) -> str:
-    """What a quantity, numbered as in `Shared`, limits."""
-    whole, each = components * len(legs) + 1, 2 * components + 2
-    if quantity < whole - 1:
-        return f"the foot force of {legs[quantity // components]}"
-    if quantity == whole - 1:
-        return "the peak normal force"
-    leg, row = divmod(quantity - whole, each)
-    if leg < len(legs):
-        return f"{LIMITS[row]} of {legs[leg]}"
-    return "the balance of " + ("forces" if quantity - whole - each * len(legs) < 3 else "moments")
-
-
-def verdict(code: int, culprit: int, legs: tuple[str, ...], components: int = 3) -> str:
-    """What came of it, with the limit that stands in the way where no forces will do."""
-    if code == SOLVED:
-        return "solved"
-    where = f": {limit_name(culprit, legs, components)}" if culprit >= 0 else ""
-    return f"these feet cannot carry this load, {SENTENCES[code]}{where}"

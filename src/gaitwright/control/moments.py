@@ -13,6 +13,10 @@ Moments = Float[np.ndarray, "steps numbers"]
 """One moment a row, the columns in the order of `Moment`."""
 
 
+BODY, LEG = 40, 17
+"""Columns of the body, and of each leg after them."""
+
+
 class Moment(NamedTuple):
     """What a tick reads, field by field as in `Sensed` and `MotionTarget`."""
 
@@ -36,10 +40,6 @@ class Moment(NamedTuple):
     feet_a: np.ndarray
 
 
-BODY = 40
-"""Columns before those of the legs."""
-
-
 def moments_of(sensed: Sequence[Sensed], targets: Sequence[MotionTarget]) -> Moments:
     """What a robot sensed and was to do, tick by tick, as rows."""
     return np.array([row(s, t) for s, t in zip(sensed, targets, strict=True)])
@@ -58,8 +58,8 @@ def row(s: Sensed, t: MotionTarget) -> Float[np.ndarray, "numbers"]:
 @kernel
 def moment_of(numbers):
     """The `Moment` in a row, as views; only `stance` is a copy."""
-    n = (numbers.size - 40) // 17
-    legs = numbers[40:]
+    n = (numbers.size - BODY) // LEG
+    legs = numbers[BODY:]
     return Moment(
         numbers[:3],
         numbers[3:7],

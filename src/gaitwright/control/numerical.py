@@ -5,21 +5,22 @@ from functools import cached_property
 from typing import Literal, NamedTuple
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from gaitwright.compiled import kernel
-from gaitwright.control.active_set import SOLVED
-from gaitwright.control.certificate import status_of
+from gaitwright.control.certificate import linear_status_of, status_of
+from gaitwright.control.codes import NOT_FINITE, SOLVED
 from gaitwright.control.demand import demand
 from gaitwright.control.forces import LIMITS, contact_frame, distribute, to_world, torques, unmet
-from gaitwright.control.linear import distribute_linear, verdict
+from gaitwright.control.linear import distribute_linear
 from gaitwright.control.moments import Moment
 from gaitwright.control.thesis_program import LinearSettings
-from gaitwright.errors import WrongUse
+from gaitwright.errors import WrongUse, unknown
 from gaitwright.model.robot import Robot, scales
 from gaitwright.signals import MotionTarget, Sensed, Torques
 
 Method = Literal["qp", "lp"]
+METHODS: tuple[Method, ...] = ("qp", "lp")
 PLAIN = LinearSettings()
 """The linear program as the closed loop uses it."""
 
@@ -47,6 +48,18 @@ def effort_of(numbers):
         numbers[3 + 3 * n : 3 + 6 * n].reshape(n, 3),
         numbers[3 + 6 * n : basis].reshape(n, LIMITS),
         numbers[basis:],
+    )
+
+
+def effort_parts(numbers: Float[np.ndarray, "*steps numbers"], n: int) -> Effort:
+    """The same for people: of one packed effort of `n` legs, or of many in rows."""
+    lead, basis = numbers.shape[:-1], 3 + (6 + LIMITS) * n
+    return Effort(
+        numbers[..., :3],
+        numbers[..., 3 : 3 + 3 * n].reshape(*lead, n, 3),
+        numbers[..., 3 + 3 * n : 3 + 6 * n].reshape(*lead, n, 3),
+        numbers[..., 3 + 6 * n : basis].reshape(*lead, n, LIMITS),
+        numbers[..., basis:],
     )
 
 
@@ -129,7 +142,10 @@ def distributed_linear(packed, load, moment, previous, settings, hints):
 
 @kernel
 def conclude(out, load, stance, normal, x, code, culprit, tau_max, weight, height):
-    """Writes torques, forces and residual; where it failed, the feet that are down share the weight."""
+    """Writes torques, forces and residual; where it failed, the feet that are down share the weight.
+
+    What is not finite stays so in the torques, plainly: whoever watches stops the motors.
+    """
     effort = effort_of(out)
     if code != SOLVED:
         feet = x.size // 3
@@ -138,6 +154,8 @@ def conclude(out, load, stance, normal, x, code, culprit, tau_max, weight, heigh
     forces = to_world(x, stance, contact_frame(normal), weight)
     effort.forces_w[:] = forces
     effort.tau[:] = torques(load, forces, tau_max)
+    if code == NOT_FINITE:
+        effort.tau[:] = np.nan
     effort.told[0] = unmet(load, forces, stance, weight, height)
     effort.told[1], effort.told[2] = code, culprit
 
@@ -152,6 +170,8 @@ class NumericalController:
     """What counts where the method is `lp`."""
 
     def __post_init__(self) -> None:
+        if self.method not in METHODS:
+            raise unknown("distribution", self.method, METHODS)
         if self.linear.components != 3.0:
             raise WrongUse(
                 f"the feet of a robot that walks are points: 3 components of a foot's load, not "
@@ -187,22 +207,16 @@ class NumericalController:
         else:
             hints = self.no_hints if previous is None or previous.basis is None else previous.basis
             numbers = tick_linear(robot.packed, self.settings, hints, *moment)
-        code = int(numbers[1])
-        basis = 3 + (6 + LIMITS) * n
-        return Torques(
-            numbers[3 : 3 + 3 * n].reshape(n, 3),
-            numbers[3 + 3 * n : 3 + 6 * n].reshape(n, 3),
-            float(numbers[0]),
-            "solved" if code == SOLVED else self.reason(code, int(numbers[2]), target),
-            numbers[3 + 6 * n : basis].reshape(n, LIMITS),
-            numbers[basis:],
-        )
+        told, tau, forces, prices, basis = effort_parts(numbers, n)
+        residual, code, culprit = told
+        status = "solved" if code == SOLVED else self.reason(int(code), int(culprit), target.stance)
+        return Torques(tau, forces, float(residual), status, prices, basis)
 
-    def reason(self, code: int, culprit: int, target: MotionTarget) -> str:
-        """Why there is no distribution, as a sentence."""
+    def reason(self, code: int, culprit: int, stance: Bool[np.ndarray, "legs"]) -> str:
+        """How a distribution ended, as a sentence."""
         if self.method == "qp":
-            return status_of(self.robot, code, culprit, target.stance)
-        return verdict(code, culprit, self.robot.legs)
+            return status_of(self.robot, code, culprit, stance)
+        return linear_status_of(self.robot, code, culprit)
 
     @cached_property
     def settings(self) -> Float[np.ndarray, "settings"]:

@@ -10,6 +10,7 @@ import math
 import numpy as np
 
 from gaitwright.compiled import kernel
+from gaitwright.control.codes import INFEASIBLE, NOT_FINITE, SOLVED, TOO_MANY_STEPS, UNBOUNDED
 from gaitwright.control.priced import (
     ABOVE,
     CEILING,
@@ -48,15 +49,6 @@ from gaitwright.control.vertex import (
     set_share,
     set_values,
 )
-
-SOLVED, INFEASIBLE, UNBOUNDED, TOO_MANY_STEPS, NOT_FINITE = 0, 1, 2, 3, 4
-SENTENCES = {
-    SOLVED: "solved",
-    INFEASIBLE: "no values keep all the limits",
-    UNBOUNDED: "an unknown without a limit grows for ever",
-    TOO_MANY_STEPS: "the linear program took too many steps",
-    NOT_FINITE: "the linear program holds a number that is not finite",
-}
 
 TINY = 1e-9
 """A quantity this little beyond a kink is at it; rows should be of size one."""

@@ -17,8 +17,16 @@ from jaxtyping import Float, Int
 from gaitwright.compiled import kernel_nogil
 from gaitwright.control.demand import demand
 from gaitwright.control.forces import LIMITS
-from gaitwright.control.moments import BODY, Moments, moment_of
-from gaitwright.control.numerical import PLAIN, Method, distributed, distributed_linear, effort_of
+from gaitwright.control.moments import BODY, LEG, Moments, moment_of
+from gaitwright.control.numerical import (
+    PLAIN,
+    Method,
+    NumericalController,
+    distributed,
+    distributed_linear,
+    effort_of,
+    effort_parts,
+)
 from gaitwright.control.thesis_program import LinearSettings
 from gaitwright.errors import WrongUse
 from gaitwright.model.robot import Robot
@@ -49,14 +57,23 @@ class Efforts:
     prices: Float[np.ndarray, "steps legs limits"]
     residual: Float[np.ndarray, "steps"]
     code: Int[np.ndarray, "steps"]
-    """0 where the distribution was solved."""
+    """0 where the distribution was solved (`codes.SENTENCES`)."""
+    culprit: Int[np.ndarray, "steps"]
+    """What was in the way where it was not: `NumericalController.reason` says it in words."""
 
 
 @kernel_nogil
 def work_out(packed, moments, every, out):
-    """First stage: the packed loads of some moments, worked out at every `every`-th and held in between."""
+    """First stage: the packed loads of some moments, worked out at every `every`-th and held in between.
+
+    A chain that is formed or broken, a foot down or up, is a new load at once.
+    """
+    n = int(packed[0])
     for i in range(moments.shape[0]):
-        out[i] = demand(packed, moment_of(moments[i])) if i % every == 0 else out[i - 1]
+        if i % every == 0 or (moments[i, BODY : BODY + n] != moments[i - 1, BODY : BODY + n]).any():
+            out[i] = demand(packed, moment_of(moments[i]))
+        else:
+            out[i] = out[i - 1]
 
 
 @kernel_nogil
@@ -88,6 +105,8 @@ def stream(jobs: Sequence[Job], every: int = 1, cores: int | None = None) -> lis
         check(number, job)
     if every < 1:
         raise WrongUse(f"the dynamics are worked out at every n-th moment, n at least 1, not {every}")
+    if cores is not None and cores < 1:
+        raise WrongUse(f"a stream needs at least 1 core, not {cores}")
     threads = cores or os.cpu_count() or 1
     with ThreadPoolExecutor(threads) as pool:
         # First stages are queued before second ones, so that none of these waits for a place in the queue.
@@ -126,22 +145,23 @@ def finish(job: Job, chunks: Sequence[Chunk]) -> Efforts:
             share_out(*task, before, found)
         else:
             share_out_linear(*task, settings, before, hints, found)
-    return Efforts(
-        out[:, 3 : 3 + 3 * n].reshape(steps, n, 3),
-        out[:, 3 + 3 * n : 3 + 6 * n].reshape(steps, n, 3),
-        out[:, 3 + 6 * n : 3 + (6 + LIMITS) * n].reshape(steps, n, LIMITS),
-        out[:, 0],
-        out[:, 1].astype(np.int64),
-    )
+    told, tau, forces, prices, _ = effort_parts(out, n)
+    code, culprit = told[:, 1:].astype(np.int64).T
+    return Efforts(tau, forces, prices, told[:, 0], code, culprit)
 
 
 def check(number: int, job: Job) -> None:
-    """`WrongUse` where a job's moments do not fit its robot."""
-    width = BODY + 17 * job.robot.n
-    shape = job.moments.shape
+    """`WrongUse` where a job's moments do not fit its robot, or its settings no robot."""
+    robot, shape = job.robot, job.moments.shape
+    NumericalController(robot, job.method, job.linear)  # has the checks of method and settings
+    width = BODY + LEG * robot.n
     if shape[1] != width:
-        legs = f"{job.robot.name} has {job.robot.n} legs, so {width} numbers a moment"
+        legs = f"{robot.name} has {robot.n} legs, so {width} numbers a moment"
         raise WrongUse(f"job {number}: {legs}, not {shape[1]}")
     bad = ~np.isfinite(job.moments).all(axis=1)
     if bad.any():
         raise WrongUse(f"job {number}: moment {int(bad.argmax())} holds a number that is not finite")
+    if job.start is not None and not (job.start.shape == (robot.n, 3) and np.isfinite(job.start).all()):
+        raise WrongUse(
+            f"job {number}: the forces before the first moment are not {robot.n} × 3 finite numbers"
+        )

@@ -12,6 +12,7 @@ from jaxtyping import Bool, Float
 
 from gaitwright.compiled import kernel
 from gaitwright.errors import WrongUse
+from gaitwright.gait.cycle_numbers import check_numbers
 from gaitwright.gait.posture import sample
 from gaitwright.gait.reference import periodic_reference
 from gaitwright.gait.swing import CLEARANCE, bump, smooth
@@ -24,7 +25,7 @@ from gaitwright.model.leg_motion import (
     all_joint_rates,
     velocity_from_base,
 )
-from gaitwright.model.reach import reach
+from gaitwright.model.reach import LIMIT_TOLERANCE, reach
 from gaitwright.model.robot import Robot, unpacked
 from gaitwright.signals import Gait, MotionTarget, Sensed
 
@@ -133,17 +134,22 @@ def desired_cycle(
     """The desired motion of a robot over one cycle of a gait.
 
     `velocity`: forward and left, heading frame [m/s]; `turn`: yaw rate [rad/s]. Raises `WrongUse` where
-    the gait does not fit the robot, and where a foot cannot be reached (leg, phase and distance).
+    the gait does not fit the robot, where a number is not finite, and where a foot cannot be reached or a
+    joint would stand beyond its limit (leg, phase and distance or angle).
     """
     manner = manner or Manner()
     command = np.array([velocity[0], velocity[1], turn], dtype=float)
     check(robot, gait, command, steps)
+    check_numbers(gait, command, manner.height, manner.lift)
     time = gait.period * np.arange(steps) / steps
     body = body_motion(robot, gait, command, manner, time)
     stance, feet, feet_v, feet_a = feet_motion(robot, gait, command, manner, time)
     q, qd, qdd, codes = joint_motion(robot, body, feet, feet_v, feet_a)
     if (codes != REACHED).any():
-        raise out_of_reach(robot, gait, body, feet, codes)
+        raise out_of_reach(robot, gait, body, feet, distances(robot, body, feet, codes))
+    beyond = np.maximum(robot.q_min - q, q - robot.q_max).max(axis=2)
+    if (beyond > LIMIT_TOLERANCE).any():
+        raise out_of_reach(robot, gait, body, feet, beyond)
     return DesiredCycle(robot, gait, command, time, stance, *body, feet, feet_v, feet_a, q, qd, qdd)
 
 
@@ -274,12 +280,17 @@ def joints_of(packed, feet_b, velocity_b, acceleration_b):
     return q, qd, qdd, codes
 
 
-def out_of_reach(robot: Robot, gait: Gait, body: tuple[Array, ...], feet: Array, codes: Array) -> WrongUse:
-    """Which foot cannot be reached, when, and by how much: the farthest one of the first kind."""
+def distances(robot: Robot, body: tuple[Array, ...], feet: Array, codes: Array) -> Array:
+    """How far from its hip each foot is that cannot be reached [m]; −∞ for the others."""
     position, rotation = body[0], body[3]
     hips = position[:, None] + np.einsum("nij,lj->nli", rotation, robot.hip)
-    distance = np.where(codes == REACHED, -np.inf, np.linalg.norm(feet - hips, axis=2))
-    i, leg = np.unravel_index(np.argmax(distance), distance.shape)
+    return np.where(codes == REACHED, -np.inf, np.linalg.norm(feet - hips, axis=2))
+
+
+def out_of_reach(robot: Robot, gait: Gait, body: tuple[Array, ...], feet: Array, badness: Array) -> WrongUse:
+    """Which leg cannot do it, when, and by how much: the one with the largest `badness` `(steps, legs)`."""
+    position, rotation = body[0], body[3]
+    i, leg = np.unravel_index(np.argmax(badness), badness.shape)
     told = reach(robot, (feet[i] - position[i]) @ rotation[i])[leg]
     return WrongUse(
         f"{robot.name} cannot walk {gait.name!r} this way: at phase {i / len(feet):.3f}, {told.sentence}"

@@ -8,7 +8,7 @@ from jaxtyping import Float
 
 from gaitwright.compiled import kernel
 from gaitwright.errors import WrongUse
-from gaitwright.gait.ground import Plane, fit_plane, plane_normal
+from gaitwright.gait.ground import APART, Plane, fit_plane, plane_normal
 
 LEVEL = Plane(0.0, 0.0, 0.0, 0.0, 0.0)
 """Level ground at height 0: the past of a robot that has none."""
@@ -42,10 +42,18 @@ def regulate(
     `feet_w`: any number of foot centres, world [m]: those in contact, and for a lifted foot its last contact
     point, where there is one. `place`: world x, y [m] of the base origin and its yaw [rad]. `stand`: its
     distance from the plane of the foot centres, square to it [m] (`Robot.stand`). `before`: the plane so
-    far, which decides what the feet leave open: fewer than three, or all on a line. Raises `WrongUse` for a
-    number that is not finite. Nothing is smoothed here: the coordinator low-passes the plane.
+    far, which decides what the feet leave open: fewer than three, or all on a line. Raises `WrongUse` for an
+    array of another shape and a number that is not finite. Nothing is smoothed here: the coordinator
+    low-passes the plane.
     """
     points = np.ascontiguousarray(feet_w, dtype=np.float64)
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise WrongUse(f"feet of shape {points.shape}; expected (feet, 3): a row x, y, z [m] for each foot")
+    if np.shape(place) != (3,) or len(before) != 5:
+        raise WrongUse(
+            f"place of shape {np.shape(place)} and a plane of {len(before)} numbers; expected x, y, yaw "
+            "and a `Plane`"
+        )
     for what, values in (("foot", points), ("place", place), ("stand", stand), ("plane before", before)):
         if not np.isfinite(values).all():
             raise WrongUse(f"{what} {np.asarray(values).tolist()} is not finite; expected numbers in metres")
@@ -54,7 +62,7 @@ def regulate(
     roll, pitch = roll_pitch_in_plane(normal, place[2])
     ground = plane.z + plane.slope_x * (place[0] - plane.x) + plane.slope_y * (place[1] - plane.y)
     height = height_over(float(ground), stand, normal)
-    return Regulation(roll, pitch, height, plane, determined, told(len(points), determined))
+    return Regulation(roll, pitch, height, plane, determined, told(points, determined))
 
 
 @kernel
@@ -71,12 +79,21 @@ def height_over(ground, stand, normal):
     return ground + stand / normal[2]
 
 
-def told(feet: int, determined: float) -> str:
+def in_one_place(points: Float[np.ndarray, "feet 3"]) -> bool:
+    """Whether feet have no direction seen from above, by the bound of `fit_plane`."""
+    spread = points[:, :2] - points[:, :2].mean(axis=0)
+    return bool(np.linalg.norm(spread, 2) <= np.sqrt(len(points)) * APART)
+
+
+def told(points: Float[np.ndarray, "feet 3"], determined: float) -> str:
     """What a plane was made of."""
+    feet = len(points)
     if feet == 0:
         return "no foot stands: the plane is kept"
     if feet == 1:
         return "one foot stands: the slope is kept, the plane goes through the foot"
+    if in_one_place(points):
+        return f"{feet} feet stand in one place: the slope is kept, the plane goes through their mean"
     if determined <= 0.0:
         return f"{feet} feet stand on a line: the plane goes through it, nearest to the one before"
     if determined < 1.0:

@@ -155,13 +155,16 @@ def branches(
     """Joint angles [rad] of each branch (sg, kn) that brings the foot of `leg` to `foot_b`, base frame [m].
 
     Four far inside the reach, none outside; at a singular pose two are the same. Joint limits are not
-    asked. Raises `WrongUse` for a leg that the robot does not have.
+    asked. Raises `WrongUse` for a leg that the robot does not have and for a place that is none.
     """
     if leg not in robot.legs:
         raise unknown("leg", leg, robot.legs)
     i = robot.legs.index(leg)
+    place = np.ascontiguousarray(foot_b, dtype=np.float64)
+    if place.shape != (3,) or not np.isfinite(place).all():
+        raise WrongUse(f"leg {leg}: the foot's place is {place.tolist()}; expected three finite numbers [m]")
     a = robot.arrays
-    point = to_leg(a.leg_frame[i], a.hip[i], np.ascontiguousarray(foot_b, dtype=np.float64))
+    point = to_leg(a.leg_frame[i], a.hip[i], place)
     return reached_branches(point, a.offset[i], float(a.sign[i]))
 
 

@@ -36,29 +36,26 @@ def make_plant(  # noqa: PLR0913 - the door to every plant; most calls name thre
     integrator: str | None = None,
     timestep: float | None = None,
     check: bool = False,
+    refresh: int | None = None,
 ) -> SimulatedPlant:
     """The plant of that name (`offers.PLANTS`) with a robot in a scene; `dt`: control period [s].
 
-    `integrator`, `check` are for plant `armstrong` alone; `timestep` [s] divides `dt`. Raises `WrongUse`
-    for what does not exist or does not fit.
+    `integrator`, `refresh` and `check` are for plant `armstrong` alone; `timestep` [s] divides `dt`. Raises
+    `WrongUse` for what does not exist or does not fit.
     """
     if name not in PLANTS:
         raise unknown("plant", name, PLANTS)
-    options: dict[str, object] = {} if timestep is None else {"timestep": timestep}
+    asked = {"timestep": timestep, "integrator": integrator, "refresh": refresh}
+    options: dict[str, object] = {word: value for word, value in asked.items() if value is not None}
     if name == "armstrong":
-        options |= {"check": check} | ({} if integrator is None else {"integrator": integrator})
+        options["check"] = check
     elif integrator is not None:
         raise WrongUse(
             f"plant {name} integrates by itself, implicitfast; {integrator!r} goes with plant armstrong"
         )
-    elif timestep is not None and not divides(timestep, dt):
+    elif refresh is not None:
         raise WrongUse(
-            f"a step of {timestep * 1e3:g} ms does not divide the control period of {dt * 1e3:g} ms"
+            f"plant {name} has no slow coefficients to refresh at every {refresh}. step; plant armstrong has"
         )
     module, cls = HOMES[name]
     return getattr(import_module(module), cls)(robot, scene, dt, **options)
-
-
-def divides(timestep: float, dt: float) -> bool:
-    """Whether a number of time steps make up a control period."""
-    return timestep > 0.0 and dt / timestep > 0.5 and abs(dt / timestep - round(dt / timestep)) < 1e-6

@@ -7,9 +7,9 @@ PLANTS = {
 """Simulated worlds: name → what it is."""
 
 INTEGRATORS = {
-    "euler": "the thesis's, which needs the shortest steps",
-    "semi-implicit": "velocities first, then positions: the cheapest that lasts",
-    "rk4": "order 4, four evaluations a step",
+    "euler": "the thesis's, order 1, positions and velocities at once",
+    "semi-implicit": "order 1, velocities first, then positions: gains less energy than euler",
+    "rk4": "order 4, four evaluations a step, whose longest safe steps are little longer",
     "adaptive": "order 3, step by step as long as the accuracy allows",
 }
 """How plant `armstrong` steps through time: name → what it is."""

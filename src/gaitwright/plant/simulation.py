@@ -7,6 +7,7 @@ import mujoco
 from gaitwright.geometry import quaternion_of
 from gaitwright.model.robot import Robot
 from gaitwright.model.scene import Scene
+from gaitwright.plant.asked import check_force, check_timestep
 from gaitwright.plant.start import start_of
 from gaitwright.plant.world import build_world
 from gaitwright.signals import Sensed, Torques
@@ -26,6 +27,7 @@ class MujocoPlant:
     data: mujoco.MjData = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
+        check_timestep(self.timestep, self.dt)
         self.model = build_world(self.robot, self.scene, self.timestep)
         self.data = mujoco.MjData(self.model)
         self.substeps = max(1, round(self.dt / self.timestep))
@@ -50,6 +52,7 @@ class MujocoPlant:
 
     def push(self, force_w: tuple[float, float, float]) -> None:
         """A force [N] on the base's centre of mass from now on, world axes."""
+        check_force(force_w)
         self.data.xfrc_applied[1, :3] = force_w
 
     def sense(self) -> Sensed:

@@ -19,7 +19,7 @@ class Claim:
     ours: str
     """As computed here."""
     agrees: bool | None
-    """`None` where the two cannot agree, and `because` says why."""
+    """`None` where the two cannot agree, or could not differ; `because` says why."""
     because: str = ""
     """How it was judged; for what cannot agree, why."""
     numbers: Mapping[str, Any] = field(default_factory=dict)

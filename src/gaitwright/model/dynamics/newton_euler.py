@@ -46,7 +46,7 @@ def hinge_motion(w, wd, axis_rate):
 
 @kernel
 def motion_at_hip(leg, w, wd, a):
-    """Motion of the base at a leg's first hinge, apply into the leg frame."""
+    """Motion of the base at a leg's first hinge, turned into the leg frame."""
     at_hip = carried(a, w, wd, leg.hip)
     return apply_t(leg.frame, w), apply_t(leg.frame, wd), apply_t(leg.frame, at_hip)
 

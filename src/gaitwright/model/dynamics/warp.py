@@ -55,9 +55,9 @@ def warped_torques(
 def at_speed(profile: Profile, speed: float) -> Profile:
     """The profile of the motion played `speed` times as fast: r = speed · t, exact at every sample.
 
-    Raises `WrongUse` for a speed that is not positive.
+    Raises `WrongUse` for a speed that is not positive and finite.
     """
-    if not speed > 0.0:
+    if not 0.0 < speed < np.inf:
         raise WrongUse(f"a profile can be played at a positive speed, not at {speed:g}")
     force = warped_torques(profile.force, profile.gravity, profile.momentum, speed)
     return Profile(profile.time / speed, force, profile.gravity, speed * profile.momentum)
@@ -73,9 +73,13 @@ def warped(
     """The profile of the motion that at each `time` is at `moment` r(t) of this one.
 
     `rate` ṙ, `rate_change` r̈ [1/s]. The parts are interpolated linearly between the samples, so warp at
-    the sampled moments for exact forces. Raises `WrongUse` for a moment outside the profile.
+    the sampled moments for exact forces. Raises `WrongUse` for a moment outside the profile, and for a
+    number that is not finite.
     """
     start, end = profile.time[0], profile.time[-1]
+    for what, values in (("time", time), ("moment", moment), ("rate", rate), ("change of rate", rate_change)):
+        if not np.isfinite(values).all():
+            raise WrongUse(f"{what} {values[~np.isfinite(values)][0]} asked of a profile: it is not finite")
     outside = moment[(moment < start) | (moment > end)]
     if outside.size:
         raise WrongUse(f"moment {outside[0]:g} s asked of a profile from {start:g} s to {end:g} s")

@@ -12,6 +12,11 @@ from gaitwright.model.scene import Scene
 from gaitwright.model.terrain import Surface
 from gaitwright.plant.armstrong.contact import NOWHERE, SLOTS
 
+LOOKED_AT = 4
+"""Nearest boxes among which those are found that have a plane of their own."""
+FLUSH = 1e-6
+"""A point this near to a plane is in it [m]."""
+
 
 @dataclass(frozen=True)
 class Ground:
@@ -39,15 +44,16 @@ class Ground:
         out[:, 0, 2] = self.surface.height(x, y)
         out[:, 0, 3:] = self.surface.normal(x, y)
         if len(self.boxes):
-            self._write_boxes(centre, out[:, 1:])
+            self._write_boxes(centre, out)
         return out.reshape(-1, 6)
 
     def _write_boxes(
-        self, centre: Float[np.ndarray, "feet 3"], out: Float[np.ndarray, "feet nearest 6"]
+        self, centre: Float[np.ndarray, "feet 3"], out: Float[np.ndarray, "feet slots 6"]
     ) -> None:
         """Writes the planes through the nearest points of the nearest boxes, square to the way there.
 
-        Boxes reach down without end: what they stand on hides their bottoms.
+        Boxes reach down without end: what they stand on hides their bottoms. Where a box's nearest point
+        is in an earlier plane, as on the other side of a seam, that plane holds the foot already.
         """
         x, y, z, c, s, half_x, half_y = self.boxes.T
         dx, dy = centre[:, :1] - x, centre[:, 1:2] - y
@@ -59,15 +65,24 @@ class Ground:
         room = np.concatenate([self.boxes[:, 5:] - np.abs(at[..., :2]), -at[..., 2:]], axis=2)
         distance = np.where(distance == 0.0, -room.min(axis=2), distance)
         for f, order in enumerate(distance.argsort(axis=1)):
-            for i, box in enumerate(order[: SLOTS - 1]):
+            slot = 1
+            for box in order[:LOOKED_AT]:
                 place, point = at[f, box], nearest[f, box]
                 normal = place - point
                 if distance[f, box] <= 0.0:
                     normal, depth = nearest_face(place, room[f, box])
                     point = place + depth * normal
                 turn = np.array([[c[box], -s[box], 0.0], [s[box], c[box], 0.0], [0.0, 0.0, 1.0]])
-                out[f, i, :3] = self.boxes[box, :3] + turn @ point
-                out[f, i, 3:] = turn @ normal / np.linalg.norm(normal)
+                touched = self.boxes[box, :3] + turn @ point
+                if slot < SLOTS and not in_a_plane(touched, out[f, :slot]):
+                    out[f, slot, :3], out[f, slot, 3:] = touched, turn @ normal / np.linalg.norm(normal)
+                    slot += 1
+
+
+def in_a_plane(point: Float[np.ndarray, "3"], planes: Float[np.ndarray, "planes 6"]) -> bool:
+    """Whether a point is in one of some planes, given by point and normal."""
+    off = ((point - planes[:, :3]) * planes[:, 3:]).sum(axis=1)
+    return bool(np.abs(off).min() < FLUSH)
 
 
 def nearest_face(

@@ -1,4 +1,4 @@
-"""Steps through time: the thesis's Euler, and three that stay stable longer (row N7; equations.md §3).
+"""Steps through time: the thesis's Euler, and three others (row N7; equations.md §3).
 
 All are explicit, and all are rows of one table, run by one kernel over one right-hand side (`system`): a
 right-hand side that is compiled into one place only compiles in a quarter of the time.

@@ -22,7 +22,7 @@ from gaitwright.plant.armstrong.integrators import advance, method_named
 from gaitwright.plant.armstrong.rotors import newton_matrix
 from gaitwright.plant.armstrong.stiffness import MARGIN, stiffest_mode
 from gaitwright.plant.armstrong.system import Drive, System, loads, mobility_of_hinges, parts, sensed
-from gaitwright.plant.choose import divides
+from gaitwright.plant.asked import check_force, check_timestep
 from gaitwright.plant.start import start_of
 from gaitwright.signals import Sensed, Torques
 
@@ -52,12 +52,15 @@ class ArmstrongPlant:
     tolerance: float = 1e-4
     """What integrator `adaptive` allows to go wrong in a step, per 1 + the size of each number."""
     worst_residual: float = field(default=0.0, init=False)
-    """Largest difference of recursion and closed form so far, per the largest acceleration; with `check`."""
+    """Largest difference of recursion and closed form since `reset`, per the largest acceleration; with
+    `check`. No number where one of them was none."""
     system: System = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         if self.refresh < 1:
             raise WrongUse(f"slow coefficients are refreshed every 1, 2, 3 … steps, not every {self.refresh}")
+        if not (math.isfinite(self.tolerance) and self.tolerance > 0.0):
+            raise WrongUse(f"a tolerance of {self.tolerance:g} is asked; it is finite and greater than 0")
         self.method = method_named(self.integrator)
         self.system = system_of(self.robot, self.scene.friction)
         self.timestep = self._safe_timestep()
@@ -67,10 +70,8 @@ class ArmstrongPlant:
     def _safe_timestep(self) -> float:
         """The step that was asked for, or the longest share of the control period that is stable."""
         asked = self.timestep
-        if asked is not None and not divides(asked, self.dt):
-            raise WrongUse(
-                f"a step of {asked * 1e3:g} ms does not divide the control period of {self.dt * 1e3:g} ms"
-            )
+        if asked is not None:
+            check_timestep(asked, self.dt)
         if self.method.error.any():
             return asked or self.dt
         mode = stiffest_mode(self.system, any_poses(self.robot, self.system))
@@ -93,7 +94,7 @@ class ArmstrongPlant:
         start = start_of(self.robot, self.scene, seed, vary)
         self.state = state_of(self.robot, self.system, start.position_w, start.rotation_wb, start.q)
         parts(self.system, self.state).v[:] = start.velocity_w
-        self.time, self.trial_step = 0.0, self.timestep
+        self.time, self.trial_step, self.worst_residual = 0.0, self.timestep, 0.0
         self.centres = feet(self.robot, start.q) @ start.rotation_wb.T + start.position_w
         self.drive = self._drive(np.zeros((self.robot.n, 3)), np.zeros(3))
         return self.sense()
@@ -115,6 +116,7 @@ class ArmstrongPlant:
 
     def push(self, force_w: tuple[float, float, float]) -> None:
         """A force [N] on the base's centre of mass from now on, world axes."""
+        check_force(force_w)
         self.drive = self.drive._replace(push=np.array(force_w, dtype=float))
 
     def sense(self) -> Sensed:
@@ -151,7 +153,7 @@ class ArmstrongPlant:
         w = parts(system, self.state).w
         acting = (system.tree, R, w, torque, force, moment, system.gravity)
         difference = relative_difference(accelerations(*acting), closed_form_accelerations(*acting))
-        self.worst_residual = max(self.worst_residual, difference)
+        self.worst_residual = float(np.maximum(self.worst_residual, difference))  # max() would hide a NaN
 
 
 def relative_difference(one: Float[np.ndarray, "*any"], other: Float[np.ndarray, "*any"]) -> float:
