@@ -1,7 +1,7 @@
 """MotionTarget + Sensed → Torques by solving the dynamics at every tick: the NC (rows N1 … N4)."""
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -51,16 +51,11 @@ def effort_of(numbers):
     )
 
 
-def effort_parts(numbers: Float[np.ndarray, "*steps numbers"], n: int) -> Effort:
-    """The same for people: of one packed effort of `n` legs, or of many in rows."""
-    lead, basis = numbers.shape[:-1], 3 + (6 + LIMITS) * n
-    return Effort(
-        numbers[..., :3],
-        numbers[..., 3 : 3 + 3 * n].reshape(*lead, n, 3),
-        numbers[..., 3 + 3 * n : 3 + 6 * n].reshape(*lead, n, 3),
-        numbers[..., 3 + 6 * n : basis].reshape(*lead, n, LIMITS),
-        numbers[..., basis:],
-    )
+@cache
+def effort_columns(n: int) -> tuple[slice, slice, slice, slice]:
+    """Where torques, forces, prices and basis of `n` legs stand in a packed effort, for people."""
+    forces, prices, basis = 3 + 3 * n, 3 + 6 * n, 3 + (6 + LIMITS) * n
+    return slice(3, forces), slice(forces, prices), slice(prices, basis), slice(basis, None)
 
 
 @kernel
@@ -207,10 +202,16 @@ class NumericalController:
         else:
             hints = self.no_hints if previous is None or previous.basis is None else previous.basis
             numbers = tick_linear(robot.packed, self.settings, hints, *moment)
-        told, tau, forces, prices, basis = effort_parts(numbers, n)
-        residual, code, culprit = told
-        status = "solved" if code == SOLVED else self.reason(int(code), int(culprit), target.stance)
-        return Torques(tau, forces, float(residual), status, prices, basis)
+        tau, forces, prices, basis = effort_columns(n)
+        code = int(numbers[1])
+        return Torques(
+            numbers[tau].reshape(n, 3),
+            numbers[forces].reshape(n, 3),
+            float(numbers[0]),
+            "solved" if code == SOLVED else self.reason(code, int(numbers[2]), target.stance),
+            numbers[prices].reshape(n, LIMITS),
+            numbers[basis],
+        )
 
     def reason(self, code: int, culprit: int, stance: Bool[np.ndarray, "legs"]) -> str:
         """How a distribution ended, as a sentence."""

@@ -24,8 +24,8 @@ from gaitwright.control.numerical import (
     NumericalController,
     distributed,
     distributed_linear,
+    effort_columns,
     effort_of,
-    effort_parts,
 )
 from gaitwright.control.thesis_program import LinearSettings
 from gaitwright.errors import WrongUse
@@ -145,9 +145,16 @@ def finish(job: Job, chunks: Sequence[Chunk]) -> Efforts:
             share_out(*task, before, found)
         else:
             share_out_linear(*task, settings, before, hints, found)
-    told, tau, forces, prices, _ = effort_parts(out, n)
-    code, culprit = told[:, 1:].astype(np.int64).T
-    return Efforts(tau, forces, prices, told[:, 0], code, culprit)
+    tau, forces, prices, _ = effort_columns(n)
+    code, culprit = out[:, 1:3].astype(np.int64).T
+    return Efforts(
+        out[:, tau].reshape(steps, n, 3),
+        out[:, forces].reshape(steps, n, 3),
+        out[:, prices].reshape(steps, n, LIMITS),
+        out[:, 0],
+        code,
+        culprit,
+    )
 
 
 def check(number: int, job: Job) -> None:

@@ -15,6 +15,7 @@ from gaitwright.reproduce.patterns import (
     THETA,
     both_signs,
     flexed,
+    half_cycle_difference,
     reversals,
     reverses_at_lift_off,
 )
@@ -206,3 +207,16 @@ def alternation(joint: int, runs: Sequence[Run], judge: str | None, because: str
 def join(runs: Sequence[Run], good: Sequence[bool]) -> str:
     """The runs of which something is true."""
     return "; ".join(run.label for run, is_so in zip(runs, good, strict=True) if is_so) or "none"
+
+
+def symmetry(runs: list[Run], what: str, thesis: str, found: str) -> Claim:
+    """Left and right half a cycle later; `found`: what is the same, as a formula."""
+    worst = max(half_cycle_difference(run.g) for run in runs)
+    return Claim(
+        what,
+        thesis,
+        f"{found} within {worst:.0e} N·m",
+        worst < 0.01,
+        "mirrored; within 0.01 N·m",
+        {"largest_difference_Nm": worst},
+    )

@@ -20,6 +20,8 @@ from jaxtyping import Float
 from gaitwright.geometry import GRAVITY, rotation
 from gaitwright.model.dynamics.articulated import Accelerations, accelerations, contact_arms
 from gaitwright.model.dynamics.newton_euler import dynamics_of, joint_accelerations, state_numbers
+from gaitwright.model.dynamics.tree import about_axis
+from gaitwright.model.dynamics.tree_laws import crossing
 from gaitwright.model.robot import Robot
 from gaitwright.signals import Sensed
 
@@ -60,22 +62,6 @@ class Body(NamedTuple):
     """`(3,)` angular acceleration at constant ν."""
 
 
-def tilde(r: Float[np.ndarray, "3"]) -> Float[np.ndarray, "3 3"]:
-    """The matrix of r ×."""
-    x, y, z = r
-    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-
-
-def turn(axis: int, angle: float) -> Float[np.ndarray, "3 3"]:
-    """Rotation about x (0) or y (1)."""
-    i, j = (axis + 1) % 3, (axis + 2) % 3
-    out = np.eye(3)
-    out[i, i] = out[j, j] = np.cos(angle)
-    out[j, i] = np.sin(angle)
-    out[i, j] = -out[j, i]
-    return out
-
-
 def bodies(
     robot: Robot,
     w: Float[np.ndarray, "3"],
@@ -94,7 +80,7 @@ def bodies(
             own = (0, 1, 1)[i]
             sense = robot.sign[k] if i == 2 else 1.0
             axes, points = np.vstack([axes, sense * R[:, own]]), np.vstack([points, p])
-            R = R @ turn(own, sense * q[k, i])
+            R = R @ about_axis(own, sense * q[k, i])
             centre, inertia = p + R @ robot.com[k, i], R @ robot.inertia[k, i] @ R.T
             yield body(robot, robot.mass[k, i], centre, inertia, axes, points, w, qd[k, : i + 1], 6 + 3 * k)
             p = p + R @ robot.offset[k, i]
@@ -103,7 +89,7 @@ def bodies(
 def body(robot: Robot, mass, centre, inertia, axes, points, w, qd, first: int) -> Body:
     """A body behind hinges with `axes` through `points`, whose columns start at `first`."""
     Jv, Jw = np.zeros((2, 3, 6 + 3 * robot.n))
-    Jv[:, :3], Jv[:, 3:6], Jw[:, 3:6] = np.eye(3), -tilde(centre), np.eye(3)
+    Jv[:, :3], Jv[:, 3:6], Jw[:, 3:6] = np.eye(3), -crossing(centre), np.eye(3)
     sweep = np.cross(axes, centre - points)
     here = slice(first, first + len(axes))
     Jv[:, here], Jw[:, here] = sweep.T, axes.T

@@ -172,18 +172,20 @@ def ball_rotations(
     out = [R_wb]
     for k in range(robot.n):
         R = R_wb @ robot.leg_frame[k]
-        for i, turn in enumerate((about_x(q[k, 0]), about_y(q[k, 1]), about_y(robot.sign[k] * q[k, 2]))):
+        for i, turn in enumerate(
+            (about_axis(0, q[k, 0]), about_axis(1, q[k, 1]), about_axis(1, robot.sign[k] * q[k, 2]))
+        ):
             R = R @ turn
             if i >= first_link(robot, k):
                 out.append(R)
     return np.array(out)
 
 
-def about_x(angle: float) -> Float[np.ndarray, "3 3"]:
-    c, s = math.cos(angle), math.sin(angle)
-    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
-
-
-def about_y(angle: float) -> Float[np.ndarray, "3 3"]:
-    c, s = math.cos(angle), math.sin(angle)
-    return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+def about_axis(axis: int, angle: float) -> Float[np.ndarray, "3 3"]:
+    """Rotation about x (0) or y (1)."""
+    i, j = (axis + 1) % 3, (axis + 2) % 3
+    out = np.eye(3)
+    out[i, i] = out[j, j] = math.cos(angle)
+    out[j, i] = math.sin(angle)
+    out[i, j] = -out[j, i]
+    return out
