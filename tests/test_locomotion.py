@@ -228,7 +228,7 @@ def watching(brain: Brain) -> Watch:
 
 
 def verdict(watch: Watch, lap: Lap) -> Verdict | None:
-    return watch.judge(lap.sensed, lap.route, lap.target, lap.torques)
+    return watch.judge(lap.sensed, lap.route, lap.call, lap.target, lap.torques)
 
 
 def test_no_progress_is_noticed_and_progress_is_patience_anew(on_the_way) -> None:

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from gaitwright.errors import BadFile as BadFile
     from gaitwright.errors import GaitwrightError as GaitwrightError
     from gaitwright.errors import WrongUse as WrongUse
+    from gaitwright.gait.cycle_file import load_cycle as load_cycle
+    from gaitwright.gait.leg_cycle import LegCycle as LegCycle
     from gaitwright.locomotion import Brain as Brain
     from gaitwright.model.robot import Robot as Robot
     from gaitwright.model.scene import Scene as Scene
@@ -36,6 +38,8 @@ if TYPE_CHECKING:
 
 _ROOMS = {
     "errors": ("BadFile", "GaitwrightError", "WrongUse"),
+    "gait.cycle_file": ("load_cycle",),
+    "gait.leg_cycle": ("LegCycle",),
     "locomotion": ("Brain",),
     "model.robot": ("Robot",),
     "model.scene": ("Scene", "load_scene"),

@@ -6,24 +6,33 @@ arrived or something ends the trip, and says what.
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from time import perf_counter_ns
 from typing import Protocol, runtime_checkable
 
 import numpy as np
 
+from gaitwright.control.kinematic import KinematicController
 from gaitwright.control.numerical import Method, NumericalController, idle
+from gaitwright.control.programmed import ProgrammedController
+from gaitwright.errors import unknown
 from gaitwright.gait.coordinator import Coordinator
+from gaitwright.gait.cycle import Manner, desired_cycle
 from gaitwright.gait.state import GaitMemory
+from gaitwright.model.footing import Footing
 from gaitwright.model.robot import Robot
 from gaitwright.model.scene import Scene
 from gaitwright.navigation.navigator import Navigator
-from gaitwright.signals import Mission, MotionTarget, Route, Sensed, SkillCall, Torques
+from gaitwright.signals import Gait, Mission, MotionTarget, Route, Sensed, SkillCall, Torques
+from gaitwright.skills.caution import Cautious
 from gaitwright.skills.chooser import PlainChooser
 from gaitwright.watch import Verdict, Watch
 
 LOOK_EVERY = 0.1
 """The navigator looks at the route this often [s]."""
+
+MOST_PROGRAMMES = 64
+"""Programmed motions kept; on a long way with changing speeds there is no end of them."""
 
 
 @runtime_checkable
@@ -38,6 +47,17 @@ class Chooser(Protocol):
     """Route + Sensed → SkillCall."""
 
     def choose(self, route: Route, sensed: Sensed, now: SkillCall | None = None) -> SkillCall: ...
+
+
+@runtime_checkable
+class Mover(Protocol):
+    """SkillCall + Sensed → MotionTarget: `gait.coordinator`, or a climb that was planned (`gait.climber`)."""
+
+    def begin(self, sensed: Sensed, phase: float = 0.0) -> GaitMemory: ...
+
+    def move(
+        self, memory: GaitMemory, call: SkillCall, sensed: Sensed
+    ) -> tuple[MotionTarget, GaitMemory]: ...
 
 
 @runtime_checkable
@@ -58,8 +78,10 @@ class Brain:
     robot: Robot
     navigator: Navigator
     chooser: Chooser
-    coordinator: Coordinator
+    coordinator: Mover
     controllers: dict[str, Controller]
+    programmes: dict[tuple[Gait, tuple[float, float], float], Controller] = field(default_factory=dict)
+    """Programmed motions worked out so far, by gait, velocity and yaw rate."""
 
     @classmethod
     def of(
@@ -69,19 +91,36 @@ class Brain:
         chooser: Chooser | None = None,
         dt: float = 0.002,
         method: Method = "qp",
+        sees: bool = True,
     ) -> "Brain":
         """A brain for a robot in a scene it knows, its torques by the numerical controller.
 
         `chooser`: by default the plain rules of `skills.chooser`; `dt`: control period [s]; `method`: how
-        foot forces are shared, `"qp"` or the thesis's `"lp"`.
+        foot forces are shared, `"qp"` or the thesis's `"lp"`; `sees`: whether feet know the ground ahead.
         """
+        footing = Footing.of(scene, robot) if sees else Footing.blind()
+        chooser = chooser or PlainChooser(robot)
         return cls(
             robot,
             Navigator.of(robot, scene),
-            chooser or PlainChooser(robot),
-            Coordinator(robot, dt),
-            {"numerical": NumericalController(robot, method)},
+            Cautious(chooser, robot, footing) if footing.is_known else chooser,
+            Coordinator(robot, dt, footing),
+            {"numerical": NumericalController(robot, method), "kinematic": KinematicController(robot)},
         )
+
+    def controller(self, call: SkillCall) -> Controller:
+        """Who computes the torques of a call; each call has a programmed motion of its own."""
+        if call.driver not in (*self.controllers, "programmed"):
+            raise unknown("driver", call.driver, [*self.controllers, "programmed"])
+        if call.driver != "programmed":
+            return self.controllers[call.driver]
+        motion = call.gait, call.velocity, call.turn
+        if motion not in self.programmes:
+            if len(self.programmes) == MOST_PROGRAMMES:
+                self.programmes.clear()
+            cycle = desired_cycle(self.robot, *motion, Manner(sways=True))
+            self.programmes[motion] = ProgrammedController(self.robot, cycle.q, cycle.qd, cycle.stance)
+        return self.programmes[motion]
 
     def begin(self, mission: Mission, sensed: Sensed, phase: float = 0.0) -> "Mind":
         """The mind of a robot that stands as sensed and gets a mission."""
@@ -128,7 +167,7 @@ def think(brain: Brain, mind: Mind, sensed: Sensed) -> tuple[Lap, Mind]:
     mind = plan_and_choose(brain, mind, sensed)
     target, gait = brain.coordinator.move(mind.gait, mind.call, sensed)
     handed = perf_counter_ns()
-    torques = brain.controllers[mind.call.driver].torques(target, sensed, mind.torques)
+    torques = brain.controller(mind.call).torques(target, sensed, mind.torques)
     done = perf_counter_ns()
     took = ((done - began) / 1e3, (done - handed) / 1e3)
     lap = Lap(sensed, mind.route, mind.call, target, torques, took)
@@ -165,7 +204,7 @@ def trip(
                 yield halted(brain, mind, sensed)
                 return
             lap, mind = think(brain, mind, sensed)
-            verdict = watch.judge(sensed, lap.route, lap.target, lap.torques)
+            verdict = watch.judge(sensed, lap.route, lap.call, lap.target, lap.torques)
             if verdict:
                 yield ended(lap, verdict)
                 return

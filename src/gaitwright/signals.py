@@ -112,6 +112,8 @@ class SkillCall:
     driver: str
     because: str
     """Why this skill, as a sentence."""
+    halt: str | None = None
+    """Why the robot must not go on, as a sentence."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,3 +162,5 @@ class Torques:
     """What each limit of each foot costs (`control.forces`, in words by `control.certificate`)."""
     basis: Float[np.ndarray, "hints"] | None = None
     """Where a linear program may start at the next tick."""
+    follows: MotionTarget | None = None
+    """The motion that a driver without mechanics follows; a plant without mechanics puts the robot there."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from gaitwright.compiled import kernel
 from gaitwright.geometry import GRAVITY
 from gaitwright.model.robot import Robot
-from gaitwright.signals import MotionTarget, Route, Sensed, Torques
+from gaitwright.signals import MotionTarget, Route, Sensed, SkillCall, Torques
 from gaitwright.skills.library import REFERENCE_HEIGHT
 
 TIPPED = math.cos(math.radians(60))
@@ -76,7 +76,9 @@ class Watch:
         self.standing_since = self.grounded_at = self.fed_at = self.progress_at = begins
         self.nearest = math.inf
 
-    def judge(self, sensed: Sensed, route: Route, target: MotionTarget, torques: Torques) -> Verdict | None:
+    def judge(
+        self, sensed: Sensed, route: Route, call: SkillCall, target: MotionTarget, torques: Torques
+    ) -> Verdict | None:
         """Why the trip ends with this tick, or `None` where it goes on."""
         lean, over_feet, speed, grounded, all_down, finite = vital_signs(
             sensed.orientation_wb,
@@ -101,10 +103,11 @@ class Watch:
             return fault
         if route.no_way:
             return Verdict(f"there is no way to the goal: {route.no_way}")
-        if not (route.arrived and all_down and speed < STILL * self.pace):
+        if not ((route.arrived or call.halt) and all_down and speed < STILL * self.pace):
             self.standing_since = now
         if now - self.standing_since > REST:
-            return Verdict("arrived at the goal", arrived=True)
+            arrival = Verdict("arrived at the goal", arrived=True)
+            return arrival if route.arrived else Verdict(f"stopped: {call.halt}")
         return self.out_of_time(route) if now >= self.ends - 1e-9 else None
 
     def fallen(self, now: float, lean: float, over_feet: float) -> Verdict | None:

@@ -98,9 +98,7 @@ def test_a_push_has_its_impulse_and_its_phase(phase):
 
 # --- the run ---------------------------------------------------------------------------------------
 def test_an_unknown_name_is_told_with_what_there_is():
-    with pytest.raises(
-        WrongUse, match=r"no bench 'walk'; there is: spine, mechanics, walks, .*; did you mean 'walks'\?"
-    ):
+    with pytest.raises(WrongUse, match=r"no bench 'walk'; there is: spine, .*; did you mean 'walks'\?"):
         bench.run(["walk"])
 
 

@@ -74,7 +74,7 @@ def test_held_dynamics_cost_accuracy_and_only_that(trot: list[Lap]) -> None:
     job = job_of(robot_called("dog"), trot)
     exact = stream([job])[0].tau
     worse = [float(np.sqrt(np.mean((stream([job], every=n)[0].tau - exact) ** 2))) for n in (1, 2, 8, 32)]
-    assert worse[0] == 0.0 and worse == sorted(worse) and worse[1] < 0.1 * worse[3]
+    assert worse[0] == 0.0 and worse == sorted(worse) and worse[1] < 0.2 * worse[3]
 
 
 def test_a_row_holds_all_of_a_moment(trot: list[Lap]) -> None:

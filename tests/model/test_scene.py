@@ -86,10 +86,10 @@ def test_a_scene_is_as_high_as_its_highest_thing() -> None:
 
 
 def test_only_what_is_too_high_to_step_on_is_an_obstacle() -> None:
-    low, high = Box(0.0, 0.0, 0.0, 1.0, 1.0, 0.05), Box(3.0, 0.0, 0.0, 1.0, 1.0, 0.07)
+    low, high = Box(0.0, 0.0, 0.0, 1.0, 1.0, 0.05), Box(3.0, 0.0, 0.0, 1.0, 1.0, 0.13)
     scene = Scene("two", Flat(), (low, high))
     assert scene.obstacles(DOG) == (high,)
-    assert scene.obstacles(DOG, step=0.5) == ()
+    assert scene.obstacles(DOG, step=0.6) == ()
 
 
 # --- built-in scenes -----------------------------------------------------------------------------
@@ -166,7 +166,7 @@ def test_blocks_always_leave_a_way_around_the_one_in_the_way(seed: int) -> None:
 @pytest.mark.parametrize(
     ("asked", "told"),
     [
-        ("moon", "no scene 'moon'; there is: flat, slope"),
+        ("moon", "no scene 'moon'; there is: flat, slippery, slope"),
         ("slope:80", "scene 'slope' takes an angle in degrees from -45 to 45, not '80'"),
         ("slope:steep", "not 'steep'"),
         ("slope:nan", "not 'nan'"),

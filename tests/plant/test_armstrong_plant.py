@@ -78,7 +78,7 @@ def test_a_plant_is_asked_for_by_name() -> None:
     assert isinstance(plant, ArmstrongPlant)
     assert (plant.integrator, plant.timestep, plant.check) == ("rk4", 0.0002, True)
     for words, sentence in (
-        ({"name": "bullet"}, "no plant 'bullet'; there is: mujoco, armstrong"),
+        ({"name": "bullet"}, "no plant 'bullet'; there is: mujoco, armstrong, kinematic"),
         ({"name": "mujoco", "integrator": "rk4"}, "'rk4' goes with plant armstrong"),
         (
             {"name": "mujoco", "timestep": 0.0015},
@@ -521,7 +521,7 @@ def test_the_checks_are_figures_too(more: list[str], capsys: pytest.CaptureFixtu
     [
         (
             ["--plant", "armstrng"],
-            "no plant 'armstrng'; there is: mujoco, armstrong; did you mean 'armstrong'?",
+            "no plant 'armstrng'; there is: mujoco, armstrong, kinematic; did you mean 'armstrong'?",
         ),
         (
             ["--plant", "armstrong", "--integrator", "rk5"],

@@ -11,7 +11,7 @@ from gaitwright.errors import WrongUse
 from gaitwright.geometry import wrap, yaw_quaternion
 from gaitwright.signals import Route, Sensed, SkillCall
 from gaitwright.skills.chooser import KEEP_TURNING, TURN_FIRST, PlainChooser, fixed_skill
-from gaitwright.skills.library import LIBRARY, fastest, gait_of, speed_scale
+from gaitwright.skills.library import LIBRARY, MANY_LEGGED, fastest, gait_of, speed_scale
 from oracles import robot_called
 
 DOG = robot_called("dog")
@@ -43,18 +43,20 @@ def test_far_off_it_turns_towards_the_path_and_does_not_go(place, goal, yaw: flo
     error = off(place, goal, yaw)
     assume(abs(abs(error) - TURN_FIRST) > 1e-6)
     call = CHOOSER.choose(route(goal, speed=speed), sensed(place, yaw))
-    assert (call.skill == "turn") == (abs(error) > TURN_FIRST)
+    assert (call.skill == "turn-in-place") == (abs(error) > TURN_FIRST)
     assert call.turn * error >= 0.0, "towards the path"
-    if call.skill == "turn":
+    if call.skill == "turn-in-place":
         assert call.velocity == (0.0, 0.0) and abs(call.turn) > 0.0
 
 
 @given(angles)
 def test_a_turn_once_begun_goes_on_until_the_path_is_near(error: float) -> None:
     assume(abs(abs(error) - KEEP_TURNING) > 1e-6)
-    turning = SkillCall("turn", gait_of(LIBRARY["turn"], DOG), (0.0, 0.0), 1.0, "numerical", "")
+    turning = SkillCall(
+        "turn-in-place", gait_of(LIBRARY["turn-in-place"], DOG), (0.0, 0.0), 1.0, "numerical", ""
+    )
     call = CHOOSER.choose(route((math.cos(error), math.sin(error))), sensed(), turning)
-    assert (call.skill == "turn") == (abs(error) > KEEP_TURNING)
+    assert (call.skill == "turn-in-place") == (abs(error) > KEEP_TURNING)
 
 
 @given(st.floats(-0.69, 0.69), angles, st.floats(0.05, 2.0), st.floats(0.0, 20.0))
@@ -144,8 +146,16 @@ def test_a_fixed_skill_is_held_whatever_happens(place, yaw: float) -> None:
 
 @pytest.mark.parametrize("name", sorted(LIBRARY))
 def test_a_fixed_skill_without_a_speed_takes_its_own(name: str) -> None:
-    call = fixed_skill(DOG, name, None, 0.0, 0.0, "numerical").skill_call
-    assert call.velocity == (LIBRARY[name].speed * speed_scale(DOG), 0.0)
+    robot = robot_called("hexapod") if name in MANY_LEGGED else DOG
+    call = fixed_skill(robot, name, None, 0.0, None, "numerical").skill_call
+    speed, way = LIBRARY[name].speed * speed_scale(robot), LIBRARY[name].way
+    assert call.velocity == (speed * way[0], speed * way[1])
+    assert call.turn == LIBRARY[name].turn / speed_scale(robot)
+
+
+def test_an_old_name_still_answers() -> None:
+    call = fixed_skill(DOG, "turn", None, 0.0, None, "numerical").skill_call
+    assert call.skill == "turn-in-place" and call.turn > 0.0
 
 
 def test_a_fixed_skill_counts_sideways_speed_too() -> None:

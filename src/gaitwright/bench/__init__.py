@@ -8,6 +8,7 @@ from gaitwright.errors import unknown
 
 GROUPS = {
     "spine": ("walks", "ground", "pushes", "lp", "robots", "missions", "tick", "speed"),
+    "skills": ("skills", "transitions", "terrain", "anyrobot", "cost"),
     "mechanics": ("dynamics", "sharing", "streaming", "armstrong"),
 }
 """Groups of claims, each claim the name of a module here, in the order in which they are measured."""

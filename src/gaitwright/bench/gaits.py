@@ -24,7 +24,7 @@ GAITS = (
     Trial("go2", "flat", SECONDS, 0, "trot", 0.4),
     Trial("go2", "rough:0.03", SECONDS, 0, "walk", 0.25),
     Trial("go2", "rough:0.03", SECONDS, 0, "trot", 0.4, method="lp"),
-    Trial("go2", "flat", SECONDS, 0, "turn", turn=0.8),
+    Trial("go2", "flat", SECONDS, 0, "turn-in-place", turn=0.8),
     Trial("go2", "flat", SECONDS, 0, "run", 1.0),
     Trial("thesis", "flat", SECONDS, 0, "walk", 0.4),
     Trial("thesis", "flat", SECONDS, 0, "trot", 0.5),

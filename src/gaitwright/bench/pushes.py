@@ -24,10 +24,10 @@ STEP, MOST = 0.15, 3.0
 
 
 def measure(session: Session) -> Iterator[Figure]:
-    """Pushes sideways and, only shown, forward; then the largest that are survived."""
+    """Pushes sideways and forward; then the largest that are survived."""
     for name, directions, impulse, least in (
-        ("sideways", SIDEWAYS, 0.9, ENOUGH),
-        ("forward", FORWARD, 1.5, None),
+        ("sideways", SIDEWAYS, 1.0, ENOUGH),
+        ("forward", FORWARD, 1.5, ENOUGH),
     ):
         what = f"go2 trot {SPEED:g} m/s: survived {impulse:g} N·s/kg {name}"
         outcomes = pushed(session, what, impulse, directions, starts=20)

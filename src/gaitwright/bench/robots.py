@@ -12,7 +12,7 @@ from gaitwright.bench.walks import Walk, measure_walks
 WALKS = (
     Walk("thesis", "stand", 0.0, seconds=20.0, starts=10),
     Walk("thesis", "walk", 0.5, seconds=20.0, starts=10, velocity=0.05),
-    Walk("thesis", "turn", 0.0, seconds=20.0, starts=10, turn=0.2, yaw_rate=0.02),
+    Walk("thesis", "turn-in-place", 0.0, seconds=20.0, starts=10, turn=0.2, yaw_rate=0.02),
     Walk("hexapod", "trot", 0.15, seconds=20.0, starts=10, velocity=0.015),
     Walk("hexapod", "walk", 0.10, seconds=20.0, starts=10, velocity=0.01),
 )

@@ -7,20 +7,25 @@ from pathlib import Path
 from time import perf_counter, process_time
 from typing import Any
 
+import numpy as np
+
 from gaitwright.control.numerical import Method
 from gaitwright.figures import Report
 from gaitwright.geometry import heading, rotation
 from gaitwright.locomotion import Brain, Lap
+from gaitwright.model.perturb import perturbed
 from gaitwright.model.robot import Robot
 from gaitwright.model.scene import Scene, load_scene
 from gaitwright.plant.choose import SimulatedPlant, make_plant
 from gaitwright.plant.models import load_robot
-from gaitwright.recording import INTERRUPTED, walk
-from gaitwright.signals import Mission
+from gaitwright.recording import INTERRUPTED, Recording, walk
+from gaitwright.signals import Mission, Route, Sensed, SkillCall
 from gaitwright.skills.chooser import fixed_skill
 
 DT = 0.002
 """Control period [s]: 500 Hz."""
+STILL = 0.01
+"""Velocities below this are not asked for [m/s, rad/s]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,25 +45,39 @@ class Push:
 
 
 @dataclass(frozen=True, slots=True)
+class Then:
+    """A skill that follows another one, at the velocity it is meant for."""
+
+    skill: str
+    at: float
+    """[s]"""
+
+
+@dataclass(frozen=True, slots=True)
 class Trial:
     """One robot in one scene from one start: a skill held for a time, or a mission where there is a goal."""
 
     robot: str
-    """Name or file."""
+    """Name or file; with `~7` after it the robot with its sizes perturbed by that seed."""
     scene: str
     seconds: float
     seed: int
     """Varies the start."""
     skill: str = "trot"
-    speed: float = 0.0
-    """[m/s]"""
-    turn: float = 0.0
-    """[rad/s]"""
+    speed: float | None = 0.0
+    """[m/s]; `None`: what the skill is meant for."""
+    turn: float | None = 0.0
+    """[rad/s]; `None`: what the skill is meant for."""
+    lateral: float = 0.0
+    """To the left [m/s]."""
+    then: "Then | None" = None
+    """Another skill from some time on."""
     goal: tuple[float, float] | None = None
     """[m]"""
     method: Method = "qp"
     push: Push | None = None
     plant: str = "mujoco"
+    driver: str = "numerical"
 
     @property
     def name(self) -> str:
@@ -74,6 +93,10 @@ class Outcome:
     """Whether it went on to its end, without a fall."""
     off_goal: float
     """How far from the goal it ended [body lengths]; from its start where there was no goal."""
+    held: float
+    """Share of the velocity asked for that was held in the second half; 1 where none was asked for."""
+    beyond: float
+    """Farthest that any joint went beyond its limits [°]; negative where it stayed within."""
     report: Report
     cpu_s: float
     wall_s: float
@@ -82,7 +105,13 @@ class Outcome:
         """As plain JSON values, without the times of ticks: workers disturb each other."""
         report = asdict(self.report)
         del report["tick_us"]
-        return report | {"kept_up": self.kept_up, "off_goal_body_lengths": self.off_goal, "cpu_s": self.cpu_s}
+        return report | {
+            "kept_up": self.kept_up,
+            "off_goal_body_lengths": self.off_goal,
+            "held_share": self.held,
+            "beyond_limits_deg": self.beyond,
+            "cpu_s": self.cpu_s,
+        }
 
 
 def simulate(trial: Trial) -> Outcome:
@@ -91,7 +120,7 @@ def simulate(trial: Trial) -> Outcome:
     scene = load_scene(trial.scene, trial.seed)
     brain = brain_for(trial, robot, scene)
     plant = make_plant(trial.plant, robot, scene, DT)
-    mission = Mission(()) if trial.goal is None else Mission((trial.goal,))
+    mission = Mission(() if trial.goal is None else (trial.goal,), driver=trial.driver)
     pusher = Pusher(plant, robot, trial.push) if trial.push else None
     cpu, wall = process_time(), perf_counter()
     recording = walk(brain, plant, mission, trial.seconds, trial.seed, scene=scene.name, watch=pusher)
@@ -101,21 +130,57 @@ def simulate(trial: Trial) -> Outcome:
     where = recording["position_w"][:, :2]
     target = where[0] if trial.goal is None else trial.goal
     off = math.dist(where[-1], target) / robot.body_length
-    return Outcome(recording.done and not recording.fell, off, recording.report(), cpu, wall)
+    kept_up = recording.done and not recording.fell
+    return Outcome(kept_up, off, held(recording), beyond_limits(recording), recording.report(), cpu, wall)
+
+
+def held(recording: Recording) -> float:
+    """Share of the velocity asked for that the second half of a trip held, the worse of speed and turn."""
+    half = len(recording) // 2
+    moved, asked = recording.moved()[half:].mean(axis=0), recording["command"][half:].mean(axis=0)
+    speed, shares = float(np.hypot(*asked[:2])), []
+    if speed > STILL:
+        shares.append(float(moved[:2] @ asked[:2]) / speed**2)
+    if abs(asked[2]) > STILL:
+        shares.append(float(moved[2] / asked[2]))
+    return min(shares, default=1.0)
+
+
+def beyond_limits(recording: Recording) -> float:
+    """Farthest that any joint went beyond its limits [°]."""
+    robot = recording.robot
+    q = recording["q"].reshape(-1, robot.n, 3)
+    return math.degrees(float(np.maximum(robot.q_min - q, q - robot.q_max).max()))
 
 
 @lru_cache
 def robot_named(asked: str) -> Robot:
-    """A robot, read once in a process."""
-    return load_robot(asked)
+    """A robot, read once in a process; `name~seed`: perturbed."""
+    name, _, seed = asked.partition("~")
+    return perturbed(robot_named(name), int(seed)) if seed else load_robot(name)
 
 
 def brain_for(trial: Trial, robot: Robot, scene: Scene) -> Brain:
     """The brain that the trial asks for."""
     chooser = None
     if trial.goal is None:
-        chooser = fixed_skill(robot, trial.skill, trial.speed, 0.0, trial.turn, "numerical")
+        chooser = fixed_skill(robot, trial.skill, trial.speed, trial.lateral, trial.turn, trial.driver)
+        if trial.then is not None:
+            after = fixed_skill(robot, trial.then.skill, None, 0.0, None, trial.driver)
+            chooser = InTurn(chooser.skill_call, after.skill_call, trial.then.at)
     return Brain.of(robot, scene, chooser, DT, trial.method)
+
+
+@dataclass(frozen=True)
+class InTurn:
+    """A chooser that holds one skill, and from some time on another one."""
+
+    first: SkillCall
+    second: SkillCall
+    at: float
+
+    def choose(self, route: Route, sensed: Sensed, now: SkillCall | None = None) -> SkillCall:
+        return self.first if sensed.time < self.at else self.second
 
 
 class Pusher:

@@ -2,49 +2,86 @@
 
 import math
 from argparse import Namespace
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from gaitwright.cli import trips
+from gaitwright.cli.console import remark, working
 from gaitwright.errors import WrongUse
+from gaitwright.gait.climber import Climber, climb_call
+from gaitwright.gait.climbing import climb
+from gaitwright.gait.coordinator import Coordinator
+from gaitwright.gait.cycle_file import load_cycle
+from gaitwright.gait.leg_cycle import LegCycle
 from gaitwright.geometry import heading, rotation
-from gaitwright.locomotion import Lap
+from gaitwright.locomotion import Brain, Lap
 from gaitwright.model.robot import Robot
+from gaitwright.model.scene import Scene
+from gaitwright.needs import HOPELESS, shortage
 from gaitwright.plant.choose import SimulatedPlant
-from gaitwright.signals import Mission
-from gaitwright.skills.chooser import fixed_skill
-from gaitwright.skills.library import check_speed, fastest, find_skill, speed_scale
+from gaitwright.signals import Mission, SkillCall
+from gaitwright.skills.chooser import Fixed, fixed_skill
+from gaitwright.skills.library import fastest, find_skill
 
+PLANNED = ("climb", "descend")
+"""Skills that are planned beforehand on the plant without mechanics."""
 PUSH_LASTS = 0.1
 """[s]"""
-TURN = 0.8
-"""Yaw rate of skill `turn` where none is asked for [rad/s], at a body height of 0.29 m."""
 
 
 def run(args: Namespace) -> int:
     trips.check_outputs(args)
     robot = trips.find_robot(args.robot)
-    turn = args.turn
-    if turn is None:
-        turn = TURN / speed_scale(robot) if args.skill == "turn" else 0.0
-    check_velocity(robot, args.skill, args.speed, args.lateral, turn)
-    chooser = fixed_skill(robot, args.skill, args.speed, args.lateral, turn, args.driver)
-    push = Push.of(robot, *args.push, at=args.seconds / 2) if args.push else None
+    skill = find_skill(args.skill, robot)
     scene = trips.find_scene(args.scene, args.seed, robot)
+    if args.plant == "kinematic" and skill.name in PLANNED:
+        return climb_by_plan(robot, scene, args)
+    chooser = fixed_skill(robot, args.skill, args.speed, args.lateral, args.turn, args.driver)
+    check_turn(robot, chooser.skill_call)
+    check_motors(robot, chooser.skill_call)
+    push = Push.of(robot, *args.push, at=args.seconds / 2) if args.push else None
     setting = trips.set_up(robot, scene, chooser, args.distribution)
+    if args.cycle:
+        setting = replace(setting, brain=with_cycle(setting.brain, skill.name, load_cycle(args.cycle)))
     return trips.run(setting, Mission((), args.speed, args.driver), args, on_lap=push)
 
 
-def check_velocity(robot: Robot, name: str, speed: float | None, lateral: float, turn: float) -> None:
-    """`WrongUse` for a velocity or yaw rate beyond what the skill can do on this robot."""
-    skill = find_skill(name, robot)
-    if speed is not None:
-        check_speed(skill, robot, math.hypot(speed, lateral))
+def with_cycle(brain: Brain, skill: str, cycle: LegCycle) -> Brain:
+    """A brain whose feet follow a leg cycle in a skill."""
+    assert isinstance(brain.coordinator, Coordinator)
+    return replace(brain, coordinator=replace(brain.coordinator, cycles={skill: cycle}, known={}))
+
+
+def climb_by_plan(robot: Robot, scene: Scene, args: Namespace) -> int:
+    """Up and down what the scene holds, every pose planned beforehand: the thesis's kinematic stairway."""
+    with working("planning the climb", worth_a_line=False):
+        ascent = climb(robot, scene)
+    if ascent.faults:
+        raise WrongUse(f"{robot.name} cannot climb {scene.name}: {ascent.faults[0]}")
+    chooser = Fixed(climb_call(ascent, args.driver))
+    setting = trips.set_up(robot, scene, chooser, args.distribution)
+    brain = replace(setting.brain, chooser=chooser, coordinator=Climber(ascent, trips.DT))
+    args.seconds = len(ascent.steps) * ascent.seconds
+    return trips.run(replace(setting, brain=brain, varied=False), Mission((), driver=args.driver), args)
+
+
+def check_motors(robot: Robot, call: SkillCall) -> None:
+    """`WrongUse` where the motors are far too weak for a skill; a remark where they have nothing to spare."""
+    told = shortage(robot, call.gait, call.velocity, call.turn, HOPELESS)
+    if told:
+        raise WrongUse(told)
+    told = shortage(robot, call.gait, call.velocity, call.turn)
+    if told:
+        remark(f"{told}: it may not keep up")
+
+
+def check_turn(robot: Robot, call: SkillCall) -> None:
+    """`WrongUse` for a yaw rate beyond what the skill can do on this robot."""
     reach = float((robot.stance[:, 0] ** 2 + robot.stance[:, 1] ** 2).max()) ** 0.5
-    most = fastest(skill, robot) / reach
-    if abs(turn) > most * (1 + 1e-9):
+    most = fastest(find_skill(call.skill, robot), robot) / reach
+    if abs(call.turn) > most * (1 + 1e-9):
         raise WrongUse(
-            f"{name} at a yaw rate of {turn:g} rad/s is beyond the reach of {robot.name}, whose feet are up "
-            f"to {reach:.2f} m from its middle: at most {most:.2f} rad/s"
+            f"{call.skill} at a yaw rate of {call.turn:g} rad/s is beyond the reach of {robot.name}, whose "
+            f"feet are up to {reach:.2f} m from its middle: at most {most:.2f} rad/s"
         )
 
 

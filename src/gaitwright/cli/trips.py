@@ -29,6 +29,9 @@ DT = 0.002
 DOG_SIZED = 0.6
 """Robots up to this height [m] walk in scenes as they are."""
 
+WITHOUT_MECHANICS = ("kinematic", "programmed")
+"""Drivers that say where the robot goes, beside their torques: what plant `kinematic` follows."""
+
 
 @dataclass(frozen=True)
 class Setting:
@@ -36,6 +39,8 @@ class Setting:
 
     brain: Brain
     scene: Scene
+    varied: bool = True
+    """Whether the start has small differences, drawn from the seed."""
 
     @property
     def robot(self) -> Robot:
@@ -96,6 +101,19 @@ def set_up(robot: Robot, scene: Scene, chooser: Chooser, distribution: Method) -
     return Setting(brain, scene)
 
 
+def check_mechanics(driver: str, args: Namespace) -> None:
+    """`WrongUse` for what needs mechanics on the plant that has none."""
+    if args.plant != "kinematic":
+        return
+    if driver not in WITHOUT_MECHANICS:
+        raise WrongUse(
+            f"plant kinematic has no mechanics, so the torques of driver {driver} move nothing there; "
+            f"drivers {' and '.join(WITHOUT_MECHANICS)} do"
+        )
+    if getattr(args, "push", None):
+        raise WrongUse("plant kinematic has no mechanics, so a push moves nothing there; plant mujoco has")
+
+
 # --- the run ---------------------------------------------------------------------------------------
 def run(
     setting: Setting,
@@ -104,6 +122,7 @@ def run(
     on_lap: Callable[[SimulatedPlant, Lap], None] | None = None,
 ) -> int:
     """Simulates, reports, leaves the files in `args.out`; returns the exit code."""
+    check_mechanics(mission.driver, args)
     cold = args.plant == "armstrong" and not is_warm("integrators.advance")
     what = (
         "compiling the plant's kernels (first run only, up to two minutes)" if cold else "building the world"
@@ -132,7 +151,14 @@ def run(
                 on_lap(plant, lap)
 
         recording = walk(
-            setting.brain, plant, mission, args.seconds, args.seed, scene=setting.scene.name, watch=watch
+            setting.brain,
+            plant,
+            mission,
+            args.seconds,
+            args.seed,
+            setting.varied,
+            scene=setting.scene.name,
+            watch=watch,
         )
     if not len(recording):
         raise KeyboardInterrupt

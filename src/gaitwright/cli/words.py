@@ -7,9 +7,13 @@ import re
 from gaitwright.errors import WrongUse, unknown
 from gaitwright.plant.offers import INTEGRATORS, PLANTS
 
-DRIVERS = {"numerical": "solves the robot's dynamics at every tick"}
+DRIVERS = {
+    "numerical": "solves the robot's dynamics at every tick",
+    "kinematic": "holds the joints to the angles that the motion needs, without forces",
+    "programmed": "plays the joint angles of the gait back, whatever happens",
+}
 """Who can compute the torques now."""
-LATER = ("programmed", "kinematic", "learned", "hybrid")
+LATER = ("learned", "hybrid")
 """Drivers that will exist."""
 LONGEST = 3600.0
 """Longest time to simulate in one go [s]; a recording takes 0.5 MB of memory per second."""

@@ -146,13 +146,21 @@ def load_of(numbers):
     )
 
 
+AS_WANTED = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+"""The base accelerates as it should."""
+
+
 @kernel
-def demand(packed, moment):
-    """The packed `Load` of a robot (`Robot.packed`) in a moment: what is sensed and what is wanted."""
+def demand(packed, moment, short):
+    """The packed `Load` of a robot (`Robot.packed`) in a moment: what is sensed and what is wanted.
+
+    `short`: what is added to the wanted acceleration of the base, linear and angular, world axes.
+    """
     n, w0 = moment.stance.size, packed[-1]
     R, w = rotation(moment.orientation), vec(moment.spin_b)
     up_b = times_t(R, (0.0, 0.0, GRAVITY))
     linear, angular = base_acceleration(w0, R, times(R, w), moment)
+    linear, angular = add(linear, short[0]), add(angular, short[1])
     a, wd = add(times_t(R, linear), up_b), times_t(R, angular)
     out = np.empty(6 + 24 * n)
     mass, com, inertia = base_at(packed)
@@ -186,4 +194,4 @@ def demand(packed, moment):
 
 def packed_load(robot: Robot, target: MotionTarget, sensed: Sensed) -> Float[np.ndarray, "numbers"]:
     """The packed `Load` of a robot for a target where it is; for people, not for the tick."""
-    return demand(robot.packed, moment_of(row(sensed, target)))
+    return demand(robot.packed, moment_of(row(sensed, target)), AS_WANTED)

@@ -10,10 +10,11 @@ from jaxtyping import Bool, Float
 from gaitwright.compiled import kernel
 from gaitwright.control.certificate import linear_status_of, status_of
 from gaitwright.control.codes import NOT_FINITE, SOLVED
-from gaitwright.control.demand import demand
+from gaitwright.control.demand import AS_WANTED, demand
 from gaitwright.control.forces import LIMITS, contact_frame, distribute, to_world, torques, unmet
 from gaitwright.control.linear import distribute_linear
 from gaitwright.control.moments import Moment
+from gaitwright.control.shortfall import shortfall
 from gaitwright.control.thesis_program import LinearSettings
 from gaitwright.errors import WrongUse, unknown
 from gaitwright.model.robot import Robot, scales
@@ -77,7 +78,7 @@ def tick(
         position, orientation, velocity, spin_b, normal, want_p, want_v, want_a, want_w, want_wd, want_r,
         stance, share, q, qd, feet_p, feet_v, feet_a,
     )
-    return distributed(packed, demand(packed, moment), moment, previous)
+    return distributed(packed, demand(packed, moment, AS_WANTED), moment, previous)
 
 
 @kernel
@@ -90,7 +91,7 @@ def tick_linear(
         position, orientation, velocity, spin_b, normal, want_p, want_v, want_a, want_w, want_wd, want_r,
         stance, share, q, qd, feet_p, feet_v, feet_a,
     )
-    return distributed_linear(packed, demand(packed, moment), moment, previous, settings, hints)
+    return distributed_linear(packed, demand(packed, moment, AS_WANTED), moment, previous, settings, hints)
 # fmt: on
 
 
@@ -104,7 +105,7 @@ def distributed(packed, load, moment, previous):
     )
     out = blank_effort(stance.size)
     effort_of(out).prices[:] = prices
-    conclude(out, load, stance, normal, x, code, culprit, tau_max, weight, height)
+    conclude(out, packed, load, moment, x, code, culprit)
     return out
 
 
@@ -131,27 +132,35 @@ def distributed_linear(packed, load, moment, previous, settings, hints):
     effort.prices[:] = shared.prices
     effort.basis[:] = shared.basis
     code, culprit = shared.code, shared.culprit
-    conclude(out, load, stance, normal, shared.x, code, culprit, tau_max, weight, height)
+    conclude(out, packed, load, moment, shared.x, code, culprit)
     return out
 
 
+LACKING = 1e-3
+"""From this share of the weight on, a wrench that the feet cannot give changes the torques."""
+
+
 @kernel
-def conclude(out, load, stance, normal, x, code, culprit, tau_max, weight, height):
+def conclude(out, packed, load, moment, x, code, culprit):
     """Writes torques, forces and residual; where it failed, the feet that are down share the weight.
 
     What is not finite stays so in the torques, plainly: whoever watches stops the motors.
     """
-    effort = effort_of(out)
+    tau_max, weight, height = scales(packed)
+    stance, effort = moment.stance, effort_of(out)
     if code != SOLVED:
         feet = x.size // 3
         for k in range(feet):
             x[3 * k], x[3 * k + 1], x[3 * k + 2] = 0.0, 0.0, 1.0 / feet
-    forces = to_world(x, stance, contact_frame(normal), weight)
+    forces = to_world(x, stance, contact_frame(moment.normal), weight)
     effort.forces_w[:] = forces
+    lacks = unmet(load, forces, stance, weight, height)
+    if lacks > LACKING or not stance.any():
+        load = demand(packed, moment, shortfall(packed, moment, load, forces))
     effort.tau[:] = torques(load, forces, tau_max)
     if code == NOT_FINITE:
         effort.tau[:] = np.nan
-    effort.told[0] = unmet(load, forces, stance, weight, height)
+    effort.told[0] = lacks
     effort.told[1], effort.told[2] = code, culprit
 
 

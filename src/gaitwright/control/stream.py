@@ -15,7 +15,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from gaitwright.compiled import kernel_nogil
-from gaitwright.control.demand import demand
+from gaitwright.control.demand import AS_WANTED, demand
 from gaitwright.control.forces import LIMITS
 from gaitwright.control.moments import BODY, LEG, Moments, moment_of
 from gaitwright.control.numerical import (
@@ -71,7 +71,7 @@ def work_out(packed, moments, every, out):
     n = int(packed[0])
     for i in range(moments.shape[0]):
         if i % every == 0 or (moments[i, BODY : BODY + n] != moments[i - 1, BODY : BODY + n]).any():
-            out[i] = demand(packed, moment_of(moments[i]))
+            out[i] = demand(packed, moment_of(moments[i]), AS_WANTED)
         else:
             out[i] = out[i - 1]
 

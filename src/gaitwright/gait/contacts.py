@@ -15,6 +15,8 @@ LATCH = 0.15
 """Contact once felt is believed for this share of the period."""
 RAMP = 0.1
 """The normal-force bound ramps over this share of the period at both ends of stance."""
+PATIENCE = 0.5
+"""The phase waits for a missing leg for this share of the period at most: over a hole there is no ground."""
 LEAST_SHARE = 0.02
 """Share of the force bound that a leg in stance always has."""
 
@@ -61,6 +63,16 @@ def is_missing(state, phase, step, duty, offsets):
         if state.mode[leg] != STANCE and (phase + 2.0 * step + offsets[leg]) % 1.0 < duty:
             return True
     return False
+
+
+@kernel
+def is_waited_for(state, phase, step, duty, offsets, period, dt):
+    """`is_missing`, for as long as it pays to wait; keeps the time in `state` (changed in place)."""
+    if not is_missing(state, phase, step, duty, offsets):
+        state.waited[0] = 0.0
+        return False
+    state.waited[0] += dt
+    return state.waited[0] < PATIENCE * period
 
 
 @kernel

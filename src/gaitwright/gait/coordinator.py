@@ -2,17 +2,23 @@
 
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float
 
 from gaitwright.compiled import kernel
-from gaitwright.gait.contacts import advance_legs, is_lifting, is_missing, shares, swing_time
+from gaitwright.gait.contacts import advance_legs, is_lifting, is_waited_for, shares, swing_time
+from gaitwright.gait.cycle_file import cycle_of
+from gaitwright.gait.footholds import STEP, Wish, choose_foothold, is_on_ground, lift_needed
 from gaitwright.gait.ground import advance_ground, plane_height, plane_normal
+from gaitwright.gait.helping import helping_shift
+from gaitwright.gait.leg_cycle import LegCycle, tabulated_legs
 from gaitwright.gait.posture import advance_anchor, sample, slew
 from gaitwright.gait.reference import periodic_reference
 from gaitwright.gait.regulation import height_over
+from gaitwright.gait.rhythm import adopt, is_new, rhythm_of, takes_over
 from gaitwright.gait.state import SEARCH, STANCE, SWING, GaitMemory, packed, standing, state_of
 from gaitwright.gait.swing import hip_over_ground, search_reference, swing_reference, touchdown
 from gaitwright.geometry import (
@@ -27,12 +33,15 @@ from gaitwright.geometry import (
     upright_rotation,
     vec,
 )
-from gaitwright.model.kinematics import all_angles, all_feet
+from gaitwright.model.footing import Footing, height_at, is_known
+from gaitwright.model.kinematics import all_angles, all_feet, angles, feet, knees
 from gaitwright.model.robot import Robot, unpacked
 from gaitwright.signals import Gait, MotionTarget, Sensed, SkillCall
 
 CONTACT_THRESHOLD = 0.02
 """A foot that carries this share of the weight is in contact."""
+STILL_RISING = 0.4
+"""Up to this share of a swing its height is fitted to the ground."""
 
 
 @kernel
@@ -71,8 +80,13 @@ def base_reference(state, table, stand, position, yaw_d):
 
 
 @kernel
-def feet_reference(model, state, clock, rotation_d, position, velocity, wanted, feet_w, height):
-    """References `(legs, 3)` of the foot centres: position, velocity, acceleration."""
+def feet_reference(
+    model, state, clock, cycles, leans, ground, rotation_d, position, velocity, wanted, feet_w, height
+):
+    """References `(legs, 3)` of the foot centres: position, velocity, acceleration.
+
+    Footholds and lifts of `state` are brought up to date with it.
+    """
     period, duty = clock
     n = feet_w.shape[0]
     p, v, a = feet_w.copy(), np.zeros((n, 3)), np.zeros((n, 3))
@@ -95,11 +109,46 @@ def feet_reference(model, state, clock, rotation_d, position, velocity, wanted, 
                 capture,
                 height,
             )
-            ground = plane_height(state.slope, position, x, y)
-            swing_reference(state.origin[leg], x, y, ground, s, duration, height, p[leg], v[leg], a[leg])
+            radius = model.foot_radius[leg]
+            lean = turned(rotation_d, leans[leg])
+            aim(state, leg, ground, x, y, plane_height(state.slope, position, x, y), radius, lean, height)
+            raise_over(state, leg, ground, s, radius, cycles[leg], height)
+            x, y, z = state.foothold[leg]
+            table, lift = cycles[leg], state.lift[leg]
+            swing_reference(
+                state.origin[leg], x, y, z, s, duration, height, table, lift, p[leg], v[leg], a[leg]
+            )
         elif state.mode[leg] == SEARCH:
             search_reference(state.origin[leg], state.progress[leg], height, p[leg], v[leg], a[leg])
+            if is_known(ground):
+                p[leg, 0], p[leg, 1] = state.foothold[leg, 0], state.foothold[leg, 1]
     return p, v, a
+
+
+@kernel
+def aim(state, leg, ground, x, y, plane, radius, lean, height):
+    """Sets the foothold of a swinging leg: the wished `(x, y)`, or its best neighbour on known ground.
+
+    `plane`: height of the foot's centre on the plane through the last footholds.
+    """
+    hold = state.foothold[leg]
+    if is_known(ground):
+        _, x, y = choose_foothold(ground, Wish(x, y, hold[0], hold[1], plane - radius, lean, height))
+        known = height_at(ground, x, y) + radius
+        if abs(known - plane) < STEP * height:
+            plane = known
+    hold[0], hold[1], hold[2] = x, y, plane
+
+
+@kernel
+def raise_over(state, leg, ground, s, radius, table, height):
+    """Raises the swing of a leg as far as the ground on its way asks for; never lowers it again."""
+    if s <= 0.0:
+        state.lift[leg] = 1.0
+    if s < STILL_RISING:
+        x, y, z = state.foothold[leg]
+        needed = lift_needed(ground, state.origin[leg], x, y, z, radius, table, height)
+        state.lift[leg] = max(state.lift[leg], needed)
 
 
 @kernel
@@ -111,6 +160,9 @@ def coordinate(
     table,
     clock,
     offsets,
+    cycles,
+    leans,
+    ground,
     old,
     asked,
     position,
@@ -123,8 +175,9 @@ def coordinate(
     """One tick of joint coordination: the new memory and what a `MotionTarget` is made of.
 
     `numbers`: the packed robot; `height`, `stand`: of its base over ground and foot centres; `threshold`:
-    load of a foot in contact [N]; `clock`: (period, duty); `old`: the memory; `asked`: forward, left,
-    yaw rate.
+    load of a foot in contact [N]; `clock`: (period, duty); `cycles`: the leg cycles, a table a leg;
+    `leans`: `shank_leans`; `ground`: what is known of it; `old`: the memory; `asked`: forward, left, yaw
+    rate.
     """
     model = unpacked(numbers)
     period, duty = clock
@@ -133,12 +186,18 @@ def coordinate(
     rotation_wb = rotation(orientation)
     at, v = vec(position), vec(velocity)
     feet_w = feet_in_world(model, rotation_wb, at, q)
+    if is_new(state, clock, offsets):
+        was = adopt(state, clock, offsets, cycles, asked, model, rotation_wb, at, feet_w, height)
     phase = state.phase[0]
     step = dt / period if duty < 1.0 else 0.0
-    missing = is_missing(state, phase, step, duty, offsets)
+    missing = is_waited_for(state, phase, step, duty, offsets, period, dt)
     if not (missing and is_lifting(state, phase, step, duty, offsets)):
         phase = (phase + step) % 1.0
-    advance_legs(state, was, phase, period, duty, offsets, load > threshold, feet_w, dt)
+    felt = load > threshold
+    for leg in range(felt.size):
+        if state.mode[leg] == SWING:
+            felt[leg] &= is_on_ground(ground, feet_w[leg], model.foot_radius[leg], height)
+    advance_legs(state, was, phase, period, duty, offsets, felt, feet_w, dt)
     state.phase[0] = phase
     advance_ground(state.slope, state.contact, at, v, 0.5 * period, dt)
     slew(state.command, asked, asked[2], GRAVITY, height, dt)
@@ -151,20 +210,31 @@ def coordinate(
     lateral = (rotation_d[0, 1], rotation_d[1, 1], rotation_d[2, 1])
     spin = add(scale(pitch[1], lateral), (0.0, 0.0, state.command[2]))
     spin_rate = scale(pitch[2], lateral)
-    feet, feet_v, feet_a = feet_reference(model, state, clock, level, at, v, base_v, feet_w, height)
-    angles, _ = all_angles(
+    feet_p, feet_v, feet_a = feet_reference(
+        model, state, clock, cycles, leans, ground, level, at, v, base_v, feet_w, height
+    )
+    base_p = add(base_p, helping_shift(model, state, rotation_d, base_p, feet_w, duty, height))
+    q_wanted, _ = all_angles(
         model.hip,
         model.leg_frame,
         model.offset,
         model.sign,
         model.branch,
-        feet_in_base(rotation_d, base_p, feet),
+        feet_in_base(rotation_d, base_p, feet_p),
     )
     share = shares(state, phase, period, duty, offsets, missing)
     body = np.array((normal, base_p, base_v, base_a, spin, spin_rate))
-    legs = np.empty((4, *feet.shape))
-    legs[0], legs[1], legs[2], legs[3] = feet, feet_v, feet_a, angles
+    legs = np.empty((4, *feet_p.shape))
+    legs[0], legs[1], legs[2], legs[3] = feet_p, feet_v, feet_a, q_wanted
     return memory, state.mode == STANCE, share, body, rotation_d, legs
+
+
+@kernel
+def turned(rotation_wb, lean):
+    """A horizontal direction of the base, in the world."""
+    c, s = rotation_wb[0, 0], rotation_wb[1, 0]
+    k = 1.0 / math.hypot(c, s)
+    return k * (c * lean[0] - s * lean[1]), k * (s * lean[0] + c * lean[1])
 
 
 @kernel
@@ -178,6 +248,13 @@ def pitched(matrix, angle):
     return out
 
 
+def shank_leans(robot: Robot) -> Float[np.ndarray, "legs 2"]:
+    """How far each shank leans out over the ground per height in the nominal stance, base axes x, y."""
+    q, _ = angles(robot, robot.stance)
+    bone = feet(robot, q) - knees(robot, q)
+    return bone[:, :2] / bone[:, 2:]
+
+
 class Cycle(NamedTuple):
     """A gait as the kernel reads it."""
 
@@ -186,6 +263,8 @@ class Cycle(NamedTuple):
     offsets: Float[np.ndarray, "legs"]
     table: Float[np.ndarray, "bins 9"]
     """The periodic reference."""
+    legs: Float[np.ndarray, "legs samples 6"]
+    """The leg cycles."""
 
 
 @dataclass(frozen=True)
@@ -195,19 +274,23 @@ class Coordinator:
     robot: Robot
     dt: float
     """Control period [s]."""
+    footing: Footing = field(default_factory=Footing.blind)
+    """What is known of the ground ahead of the feet."""
+    cycles: dict[str, LegCycle] = field(default_factory=dict)
+    """Leg cycles by skill, in place of those that come along."""
     known: dict[Gait, Cycle] = field(default_factory=dict)
     """Cycles worked out so far, by gait."""
 
     def begin(self, sensed: Sensed, phase: float = 0.0) -> GaitMemory:
         """The memory of a robot that stands as sensed and will start its first gait at `phase`."""
         turn = rotation(sensed.orientation_wb)
-        feet = feet_in_world(self.robot.arrays, turn, tuple(sensed.position_w), sensed.q)
-        return packed(standing(feet, sensed.position_w, heading(turn), phase))
+        feet_w = feet_in_world(self.robot.arrays, turn, tuple(sensed.position_w), sensed.q)
+        return packed(standing(feet_w, sensed.position_w, heading(turn), phase))
 
     def move(self, memory: GaitMemory, call: SkillCall, sensed: Sensed) -> tuple[MotionTarget, GaitMemory]:
         """What body, feet and joints should do now, and the memory for the next tick."""
         robot = self.robot
-        cycle = self.cycle(call.gait)
+        cycle = self.cycle(self.possible(memory, call, sensed))
         memory, stance, share, body, attitude, legs = coordinate(
             robot.packed,
             robot.height,
@@ -216,6 +299,9 @@ class Coordinator:
             cycle.table,
             cycle.clock,
             cycle.offsets,
+            cycle.legs,
+            self.leans,
+            self.footing.ground,
             memory,
             (call.velocity[0], call.velocity[1], call.turn),
             sensed.position_w,
@@ -226,7 +312,7 @@ class Coordinator:
             self.dt,
         )
         normal, at, velocity, acceleration, spin, spin_rate = body
-        feet, feet_velocity, feet_acceleration, angles = legs
+        feet_p, feet_velocity, feet_acceleration, q_wanted = legs
         target = MotionTarget(
             phase=float(memory[0]),
             stance=stance,
@@ -238,18 +324,35 @@ class Coordinator:
             rotation_wb=attitude,
             angular_velocity_w=spin,
             angular_acceleration_w=spin_rate,
-            feet_w=feet,
+            feet_w=feet_p,
             feet_velocity_w=feet_velocity,
             feet_acceleration_w=feet_acceleration,
-            q=angles,
+            q=q_wanted,
             command=memory[1:4],
         )
         return target, memory
+
+    def possible(self, memory: GaitMemory, call: SkillCall, sensed: Sensed) -> Gait:
+        """The gait that is asked for, or the one in use as long as the robot is too fast for it."""
+        gait, (period, duty, offsets) = call.gait, rhythm_of(memory)
+        if period <= 0.0 or (gait.period, gait.duty, gait.offsets) == (period, duty, offsets):
+            return gait
+        speed = math.hypot(sensed.velocity_w[0], sensed.velocity_w[1])
+        if takes_over(gait, speed, self.robot.height):
+            return gait
+        same = (g for g in self.known if (g.period, g.duty, g.offsets) == (period, duty, offsets))
+        return next(same, Gait("in use", period, duty, offsets))
+
+    @cached_property
+    def leans(self) -> Float[np.ndarray, "legs 2"]:
+        """How far each shank leans per height in the nominal stance, base axes."""
+        return shank_leans(self.robot)
 
     def cycle(self, gait: Gait) -> Cycle:
         """The cycle of `gait`, worked out at its first use."""
         cycle = self.known.get(gait)
         if cycle is None:
             table = periodic_reference(self.robot, gait)
-            cycle = self.known[gait] = Cycle((gait.period, gait.duty), np.array(gait.offsets), table)
+            legs = tabulated_legs(self.cycles.get(gait.name) or cycle_of(gait.name), self.robot.n)
+            cycle = self.known[gait] = Cycle((gait.period, gait.duty), np.array(gait.offsets), table, legs)
         return cycle

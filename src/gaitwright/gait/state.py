@@ -26,6 +26,10 @@ class GaitState(NamedTuple):
     """`(3,)` where the body should be by now: x, y [m], yaw [rad]; on a leash."""
     slope: np.ndarray
     """`(3,)` ground plane of the foot centres: ∂z/∂x, ∂z/∂y, and its height under the base [m]."""
+    waited: np.ndarray
+    """`(1,)` time that the phase has waited for a missing leg [s]."""
+    clock: np.ndarray
+    """`(2,)` period [s] and duty factor of the gait in use; a period of 0: none yet."""
     mode: np.ndarray
     """`(legs,)` STANCE, SWING or SEARCH."""
     progress: np.ndarray
@@ -34,10 +38,16 @@ class GaitState(NamedTuple):
     """`(legs,)` time since this stance began [s]."""
     unfelt: np.ndarray
     """`(legs,)` time since contact was last felt [s]."""
+    offset: np.ndarray
+    """`(legs,)` relative phases of the gait in use."""
+    lift: np.ndarray
+    """`(legs,)` factor by which this swing is raised to clear the ground."""
     origin: np.ndarray
     """`(legs, 3)` where the swing, or the search, began [m]."""
     contact: np.ndarray
     """`(legs, 3)` centre of the foot at its last contact [m]."""
+    foothold: np.ndarray
+    """`(legs, 3)` centre of the foot where its swing is to end [m]."""
 
 
 def standing(feet_w: np.ndarray, position_w: np.ndarray, yaw: float, phase: float) -> GaitState:
@@ -49,12 +59,17 @@ def standing(feet_w: np.ndarray, position_w: np.ndarray, yaw: float, phase: floa
         command=np.zeros(3),
         anchor=np.array([position_w[0], position_w[1], yaw]),
         slope=np.array([0.0, 0.0, ground]),
+        waited=np.zeros(1),
+        clock=np.zeros(2),
         mode=np.zeros(n, dtype=np.int64),
         progress=np.zeros(n),
         age=np.full(n, 10.0),
         unfelt=np.zeros(n),
+        offset=np.zeros(n),
+        lift=np.ones(n),
         origin=feet_w.copy(),
         contact=feet_w.copy(),
+        foothold=feet_w.copy(),
     )
 
 
@@ -63,20 +78,29 @@ def packed(state: GaitState) -> GaitMemory:
     return np.concatenate([field.ravel().astype(float) for field in state])
 
 
+BODY, LEG = 13, 15
+"""Numbers of the body, and of each leg, in a packed memory."""
+
+
 @kernel
 def state_of(memory):
     """The `GaitState` in a packed memory, as views."""
-    n = (memory.size - 10) // 10
-    legs = memory[10:]
+    n = (memory.size - BODY) // LEG
+    legs = memory[BODY:]
     return GaitState(
         memory[:1],
         memory[1:4],
         memory[4:7],
         memory[7:10],
+        memory[10:11],
+        memory[11:13],
         legs[:n],
         legs[n : 2 * n],
         legs[2 * n : 3 * n],
         legs[3 * n : 4 * n],
-        legs[4 * n : 7 * n].reshape(n, 3),
-        legs[7 * n : 10 * n].reshape(n, 3),
+        legs[4 * n : 5 * n],
+        legs[5 * n : 6 * n],
+        legs[6 * n : 9 * n].reshape(n, 3),
+        legs[9 * n : 12 * n].reshape(n, 3),
+        legs[12 * n :].reshape(n, 3),
     )

@@ -5,8 +5,10 @@ import math
 from gaitwright.compiled import kernel
 from gaitwright.geometry import GRAVITY
 
-AIM_BELOW = 0.10
+AIM_BELOW = 0.03
 """The touch-down is aimed this share of the body height below the ground, so that it happens."""
+REACH_DOWN = 0.8
+"""From this share of the swing on, the foot speeds up downwards, to the speed of lowering a late leg."""
 CLEARANCE = 0.2
 """Height of the swing over the straight line, in body heights."""
 REACH = 0.6
@@ -43,32 +45,73 @@ def touchdown(hip_x, hip_y, arm_x, arm_y, velocity, wanted, turn, remaining, sta
     √(h/g)·(v − v_wanted). `arm`: from the base to the hip; `turn`: wanted yaw rate.
     """
     spin_x, spin_y = -turn * arm_y, turn * arm_x
-    step_x = (wanted[0] + spin_x) * stance_time * 0.5 + capture * (velocity[0] - wanted[0])
-    step_y = (wanted[1] + spin_y) * stance_time * 0.5 + capture * (velocity[1] - wanted[1])
-    length = math.hypot(step_x, step_y)
-    if length > REACH * height:
-        step_x *= REACH * height / length
-        step_y *= REACH * height / length
+    error_x, error_y = capture * (velocity[0] - wanted[0]), capture * (velocity[1] - wanted[1])
+    k = within(REACH * height, math.hypot(error_x, error_y))
+    error_x, error_y = k * error_x, k * error_y
+    along_x, along_y = (wanted[0] + spin_x) * stance_time * 0.5, (wanted[1] + spin_y) * stance_time * 0.5
+    # Balance first: where the reach ends, the stride gives way to the capture step.
+    k = share_within(REACH * height, error_x, error_y, along_x, along_y)
+    step_x, step_y = error_x + k * along_x, error_y + k * along_y
     x = hip_x + (velocity[0] + spin_x) * remaining + step_x
     y = hip_y + (velocity[1] + spin_y) * remaining + step_y
     return x, y
 
 
 @kernel
-def swing_reference(origin, x, y, ground, s, duration, height, out_p, out_v, out_a):
+def within(limit, length):
+    """Factor that brings a length down to its limit."""
+    return 1.0 if length <= limit else limit / length
+
+
+@kernel
+def share_within(limit, x, y, along_x, along_y):
+    """Largest k up to 1 for which (x, y) + k·along stays within `limit`, where (x, y) does."""
+    a = along_x * along_x + along_y * along_y
+    b = x * along_x + y * along_y
+    c = x * x + y * y - limit * limit
+    if a + 2.0 * b + c <= 0.0 or a == 0.0:
+        return 1.0
+    return (math.sqrt(max(b * b - a * c, 0.0)) - b) / a
+
+
+@kernel
+def on_cycle(table, s):
+    """Row of a leg cycle's table (`gait.leg_cycle`) at share `s` of the swing, straight in between."""
+    x = min(max(s, 0.0), 1.0) * (table.shape[0] - 1)
+    i = min(int(x), table.shape[0] - 2)
+    t = x - i
+    k = 1.0 - t
+    return (
+        k * table[i, 0] + t * table[i + 1, 0],
+        k * table[i, 1] + t * table[i + 1, 1],
+        k * table[i, 2] + t * table[i + 1, 2],
+        k * table[i, 3] + t * table[i + 1, 3],
+        k * table[i, 4] + t * table[i + 1, 4],
+        k * table[i, 5] + t * table[i + 1, 5],
+    )
+
+
+@kernel
+def swing_reference(origin, x, y, ground, s, duration, height, table, lift, out_p, out_v, out_a):
     """Writes position, velocity and acceleration of a foot at share `s` of its swing to `(x, y)`.
 
-    `ground`: height of the foot centre at touch-down [m].
+    `ground`: height of the foot centre at touch-down [m]; `table`: the leg cycle; `lift`: what its height is
+    multiplied by. At the end the foot speeds up downwards, so that it meets the ground on time.
     """
-    b, db, ddb = smooth(s)
-    u, du, ddu = bump(s)
-    lift = CLEARANCE * height
+    b, db, ddb, u, du, ddu = on_cycle(table, s)
+    rise = lift * height
     way = (x - origin[0], y - origin[1], ground - AIM_BELOW * height - origin[2])
     for i in range(3):
-        rise = lift if i == 2 else 0.0
-        out_p[i] = origin[i] + way[i] * b + rise * u
-        out_v[i] = (way[i] * db + rise * du) / duration
-        out_a[i] = (way[i] * ddb + rise * ddu) / (duration * duration)
+        k = rise if i == 2 else 0.0
+        out_p[i] = origin[i] + way[i] * b + k * u
+        out_v[i] = (way[i] * db + k * du) / duration
+        out_a[i] = (way[i] * ddb + k * ddu) / (duration * duration)
+    if s > REACH_DOWN:
+        down = SEARCH_FROUDE * math.sqrt(GRAVITY * height)
+        late, last = (s - REACH_DOWN) * duration, (1.0 - REACH_DOWN) * duration
+        out_p[2] -= 0.5 * down * late * late / last
+        out_v[2] -= down * late / last
+        out_a[2] -= down / last
 
 
 @kernel

@@ -136,6 +136,14 @@ def feet(robot: Robot, q: Float[np.ndarray, "legs 3"]) -> Float[np.ndarray, "leg
     return all_feet(a.hip, a.leg_frame, a.offset, a.sign, per_leg(robot, q, "the angle of", HINGES))
 
 
+def knees(robot: Robot, q: Float[np.ndarray, "legs 3"]) -> Float[np.ndarray, "legs 3"]:
+    """Third hinges in the base frame [m] for joint angles `q` [rad]."""
+    a = robot.arrays
+    thighs = a.offset.copy()
+    thighs[:, 2] = 0.0
+    return all_feet(a.hip, a.leg_frame, thighs, a.sign, q)
+
+
 def angles(
     robot: Robot, feet_b: Float[np.ndarray, "legs 3"]
 ) -> tuple[Float[np.ndarray, "legs 3"], Bool[np.ndarray, "legs"]]:

@@ -14,6 +14,9 @@ from gaitwright.model.terrain import Box, Flat, HeightField, Slope, Surface
 
 Bounds = tuple[float, float, float, float]
 
+FRICTION = 0.8
+"""Coefficient of friction where nothing else is said [-]."""
+
 
 class Layout(NamedTuple):
     """A ground with what stands on it."""
@@ -22,6 +25,7 @@ class Layout(NamedTuple):
     boxes: tuple[Box, ...]
     bounds: Bounds
     """x_min, y_min, x_max, y_max [m]."""
+    friction: float = FRICTION
 
 
 def _bounds(scale: float) -> Bounds:
@@ -41,6 +45,10 @@ def _long(scale: float) -> Bounds:
 
 def flat(_: float, scale: float, __: np.random.Generator) -> Layout:
     return Layout(Flat(), (), _wide(scale))
+
+
+def slippery(friction: float, scale: float, _: np.random.Generator) -> Layout:
+    return Layout(Flat(), (), _wide(scale), friction)
 
 
 def slope(degrees: float, scale: float, _: np.random.Generator) -> Layout:
@@ -157,24 +165,72 @@ STEPS, TREAD, TOP, FOOT_OF_STAIRS = 5, 0.3, 1.2, 1.5
 """Steps each way, depth of a step, length of the platform, x of the first step [m]."""
 
 
+FLIGHT = 6
+"""Steps each way of a stairway."""
+
+
+def stairway(rise: float, scale: float, _: np.random.Generator) -> Layout:
+    """The thesis's stairway (6.3, stage 2): steps as deep as they are high, which makes 45°."""
+    return flight(rise * scale, rise * scale, scale)
+
+
+def flight(rise: float, tread: float, scale: float = 1.0, steps: int = FLIGHT) -> Layout:
+    """A stairway of any steepness: `rise` and `tread` of a step [m] as they are, the rest times `scale`."""
+    x_min, y_min, _, y_max = _bounds(scale)
+    half = TOP / 2 * scale + tread * (steps - 1)
+    centre, width = FOOT_OF_STAIRS * scale + half, y_max - y_min
+    boxes = (Box(centre, 0.0, 0.0, 2 * (half - tread * k), width, rise, rise * k) for k in range(steps))
+    return Layout(Flat(), tuple(boxes), (x_min, y_min, 2 * centre + 4.0 * scale, y_max))
+
+
 def stairs(rise: float, scale: float, _: np.random.Generator) -> Layout:
     """Boxes that lie on each other, each shorter than the one below by a step at either end."""
-    bounds = _bounds(scale)
-    half = TOP / 2 + TREAD * (STEPS - 1)
-    centre, width = (FOOT_OF_STAIRS + half) * scale, bounds[3] - bounds[1]
+    return flight(rise * scale, TREAD * scale, scale, STEPS)
+
+
+# --- ramp ----------------------------------------------------------------------------------------
+RAMP_AT, RAMP_LONG, RAMP_GRID = 1.2, 1.5, 0.05
+"""x where it rises, its length along x each way, spacing of the grid that holds it [m]."""
+
+
+def ramp(degrees: float, scale: float, _: np.random.Generator) -> Layout:
+    """A ramp up, a platform, and a ramp down again, as wide as the field."""
+    bounds, grid = _bounds(scale), RAMP_GRID * scale
+    x = bounds[0] + grid * np.arange(round((bounds[2] - bounds[0]) / grid) + 1)
+    up = np.clip(x - RAMP_AT * scale, 0.0, RAMP_LONG * scale)
+    down = np.clip(x - (RAMP_AT + RAMP_LONG + TOP) * scale, 0.0, RAMP_LONG * scale)
+    rows = round((bounds[3] - bounds[1]) / grid) + 1
+    heights = np.tile(math.tan(math.radians(degrees)) * (up - down), (rows, 1))
+    return Layout(HeightField(bounds[0], bounds[1], grid, heights), (), bounds)
+
+
+# --- gaps ----------------------------------------------------------------------------------------
+GAPS, GAP_AT, ISLAND, DEEP = 3, 1.2, 0.8, 0.5
+"""How many, x where the first begins, ground between them, depth [m]."""
+
+
+def gap(width: float, scale: float, _: np.random.Generator) -> Layout:
+    """Blocks in a row with gaps between them, as wide as the field: a robot starts on the first one."""
+    x_min, y_min, x_max, y_max = _bounds(scale)
+    ends = [(GAP_AT + k * (ISLAND + width)) * scale for k in range(GAPS)]
+    starts = [x_min, *(end + width * scale for end in ends)]
     boxes = (
-        Box(centre, 0.0, 0.0, 2 * (half - TREAD * k) * scale, width, rise * scale, rise * scale * k)
-        for k in range(STEPS)
+        Box((a + b) / 2, 0.0, 0.0, b - a, y_max - y_min, DEEP * scale)
+        for a, b in zip(starts, [*ends, x_max], strict=True)
     )
-    return Layout(Flat(), tuple(boxes), bounds)
+    return Layout(Flat(), tuple(boxes), (x_min, y_min, x_max, y_max))
 
 
 BUILDERS: dict[str, Callable[[float, float, np.random.Generator], Layout]] = {
     "flat": flat,
+    "slippery": slippery,
     "slope": slope,
     "cross-slope": cross_slope,
     "rough": rough,
     "blocks": blocks,
     "stairs": stairs,
+    "stairway": stairway,
+    "ramp": ramp,
+    "gap": gap,
 }
 """One builder per name of `scenes_list.OFFERS`."""

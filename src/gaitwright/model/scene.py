@@ -11,11 +11,8 @@ from gaitwright.model import layouts, scene_file, scenes_list
 from gaitwright.model.robot import Robot
 from gaitwright.model.terrain import Box, Number, Surface
 
-BLIND_STEP = 0.2
-"""Highest box that is stepped on blind, as a share of `Robot.height`: the height to which feet are lifted."""
-
-FRICTION = 0.8
-"""Coefficient of friction where a scene does not say [-]."""
+STEP = 0.4
+"""Highest box that is stepped on, as a share of `Robot.height`: feet know the ground ahead."""
 
 BATCH = 1_000_000
 """Most pairs of place and box looked at in one go: keeps memory small."""
@@ -32,7 +29,7 @@ class Scene:
     """x_min, y_min, x_max, y_max: robots stay inside."""
     start: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """x, y, yaw."""
-    friction: float = FRICTION
+    friction: float = layouts.FRICTION
     """Coefficient of friction between ground and robots [-]."""
     seed: int = 0
     """What the random parts were drawn from."""
@@ -54,7 +51,7 @@ class Scene:
         """Height of the top of one of the boxes [m]."""
         return float(self.surface.height(box.x, box.y)) + box.base + box.height
 
-    def obstacles(self, robot: Robot, step: float = BLIND_STEP) -> tuple[Box, ...]:
+    def obstacles(self, robot: Robot, step: float = STEP) -> tuple[Box, ...]:
         """The boxes that are too high for the robot to step on: higher than `step` times its height."""
         return tuple(box for box in self.boxes if box.height > step * robot.height)
 
@@ -92,4 +89,5 @@ def load_scene(name_or_path: str, seed: int = 0, scale: float = 1.0) -> Scene:
     if not 0.01 <= scale <= 100.0:
         raise WrongUse(f"scene {name!r} can be scaled by 0.01 to 100, not by {scale:g}")
     layout = layouts.BUILDERS[name](value, scale, np.random.default_rng(seed))
-    return Scene(name_or_path, *layout, seed=seed)
+    surface, boxes, bounds, friction = layout
+    return Scene(name_or_path, surface, boxes, bounds, friction=friction, seed=seed)

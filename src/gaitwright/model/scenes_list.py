@@ -19,6 +19,7 @@ class Offer(NamedTuple):
 
 OFFERS = {
     "flat": Offer("level ground"),
+    "slippery": Offer("level ground with little grip", "a coefficient of friction", 0.3, 0.05, 2.0),
     "slope": Offer("a plane that rises (+) or falls (-) ahead", "an angle in degrees", 10.0, -45.0, 45.0),
     "cross-slope": Offer(
         "a plane that rises to the left (+) or right (-)", "an angle in degrees", 10.0, -45.0, 45.0
@@ -26,6 +27,11 @@ OFFERS = {
     "rough": Offer("random hills 0.2 m apart, level at the start", "an amplitude in metres", 0.03, 0.0, 0.5),
     "blocks": Offer("low blocks to step on, high ones to walk around, between (0, 0) and the goal (6, 0)"),
     "stairs": Offer("five steps up and five down", "the height of a step in metres", 0.10, 0.01, 0.5),
+    "stairway": Offer(
+        "the thesis's: six steps up at 45° and six down", "the height of a step in metres", 0.11, 0.01, 0.5
+    ),
+    "ramp": Offer("a ramp up, a platform, a ramp down", "an angle in degrees", 20.0, 1.0, 45.0),
+    "gap": Offer("three gaps in the ground, half a metre deep", "a width in metres", 0.2, 0.01, 1.0),
 }
 
 

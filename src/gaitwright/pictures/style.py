@@ -18,7 +18,7 @@ SKILLS = {
     "stand": "#6b7280",
     "walk": "#2f9e44",
     "trot": "#1971c2",
-    "turn": "#e8590c",
+    "turn-in-place": "#e8590c",
     "run": "#c2255c",
     "pace": "#0c8599",
     "rack": "#5f3dc4",
@@ -26,6 +26,16 @@ SKILLS = {
     "bound": "#862e9c",
     "gallop": "#a61e4d",
     "rotary-gallop": "#d6336c",
+    "stop": "#868e96",
+    "walk-backward": "#66a80f",
+    "walk-sideways": "#37b24d",
+    "climb": "#099268",
+    "descend": "#1098ad",
+    "turn-left": "#f76707",
+    "turn-right": "#fd7e14",
+    "tripod": "#1c7ed6",
+    "ripple": "#40c057",
+    "wave": "#74b816",
 }
 """Every skill has its colour, the same in every picture."""
 DRIVERS = ("#495057", "#2f9e44", "#e8590c", "#862e9c", "#1971c2")

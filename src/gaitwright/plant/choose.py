@@ -12,6 +12,7 @@ from gaitwright.signals import Sensed, Torques
 HOMES = {
     "mujoco": ("gaitwright.plant.simulation", "MujocoPlant"),
     "armstrong": ("gaitwright.plant.armstrong.simulation", "ArmstrongPlant"),
+    "kinematic": ("gaitwright.plant.kinematic", "KinematicPlant"),
 }
 
 
@@ -47,6 +48,8 @@ def make_plant(  # noqa: PLR0913 - the door to every plant; most calls name thre
         raise unknown("plant", name, PLANTS)
     asked = {"timestep": timestep, "integrator": integrator, "refresh": refresh}
     options: dict[str, object] = {word: value for word, value in asked.items() if value is not None}
+    if name == "kinematic" and options:
+        raise WrongUse(f"plant kinematic has no mechanics to step through: no {', '.join(options)}")
     if name == "armstrong":
         options["check"] = check
     elif integrator is not None:

@@ -3,6 +3,7 @@
 PLANTS = {
     "mujoco": "hinges and contacts by MuJoCo",
     "armstrong": "the thesis's: ball joints held by springs, by Armstrong's recursion",
+    "kinematic": "no mechanics: the robot is where its coordinator puts it",
 }
 """Simulated worlds: name → what it is."""
 

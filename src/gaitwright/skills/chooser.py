@@ -13,6 +13,7 @@ from gaitwright.skills.library import (
     fastest,
     find_skill,
     gait_of,
+    meant,
     skill_names,
     speed_scale,
 )
@@ -44,9 +45,11 @@ class PlainChooser:
         dy = route.path[0][1] - float(sensed.position_w[1])
         error = float(wrap(math.atan2(dy, dx) - yaw))
         turn = self.turn_rate(error)
-        turning = now is not None and now.skill == "turn"
+        turning = now is not None and now.skill == "turn-in-place"
         if abs(error) > (KEEP_TURNING if turning else TURN_FIRST):
-            return self.call("turn", route, turn=turn, because=f"the path is {math.degrees(error):.0f}° off")
+            return self.call(
+                "turn-in-place", route, turn=turn, because=f"the path is {math.degrees(error):.0f}° off"
+            )
         scale = speed_scale(self.robot)
         wished = route.speed if route.speed is not None else LIBRARY["trot"].speed * scale
         self.gait_for(wished)
@@ -93,12 +96,17 @@ class Fixed:
 
 
 def fixed_skill(
-    robot: Robot, name: str, speed: float | None, lateral: float, turn: float, driver: str
+    robot: Robot, name: str, speed: float | None, lateral: float, turn: float | None, driver: str
 ) -> Fixed:
-    """One skill at one velocity [m/s, rad/s]; `None` takes the speed the skill is meant for."""
+    """One skill at one velocity [m/s, rad/s]; `None` takes what the skill is meant for.
+
+    `speed` is along the skill's own way; `lateral`, to the left, comes on top.
+    """
     skill = find_skill(name, robot)
-    if speed is None:
-        speed = skill.speed * speed_scale(robot)
-    check_speed(skill, robot, math.hypot(speed, lateral))
-    call = SkillCall(name, gait_of(skill, robot), (speed, lateral), turn, driver, "asked for")
-    return Fixed(call)
+    forward, left, rate = meant(skill, robot)
+    if speed is not None:
+        forward, left = speed * skill.way[0], speed * skill.way[1]
+    velocity = (forward, left + lateral)
+    check_speed(skill, robot, math.hypot(*velocity))
+    turn = rate if turn is None else turn
+    return Fixed(SkillCall(skill.name, gait_of(skill, robot), velocity, turn, driver, "asked for"))

@@ -1,0 +1,1 @@
+"""Situation → Decision, by rules a person can read. Knows nothing of robots."""

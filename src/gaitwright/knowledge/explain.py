@@ -1,0 +1,163 @@
+"""Why a rule fired, why another did not, and what moved its marks, in sentences (row L11)."""
+
+from collections.abc import Sequence
+
+from gaitwright.knowledge.consult import Decision, consult
+from gaitwright.knowledge.forest import Situation
+from gaitwright.knowledge.rules import Event, Rule, Rulebook, outside, status
+from gaitwright.knowledge.trees import ROOT, Tree
+
+NEAREST = 3
+"""So many of the rules that did not fire are told of."""
+UPPER, LOWER = "▲", "▼"
+
+
+def why(book: Rulebook, decision: Decision) -> str:
+    """What speaks for the decision, what kept the nearest others out, and where it rests on nothing seen."""
+    sentences = [_because(book, decision), *_outranked(book, decision), *_nearest(book, decision)]
+    if decision.grey:
+        told = " and ".join(_says(book.forest[tree], decision.situation[tree]) for tree in decision.grey)
+        sentences.append(f"nobody has yet seen {decision.rule} where {told}: grey")
+    return "; ".join(sentences) + "."
+
+
+def why_not(book: Rulebook, name: str, situation: Situation) -> str:
+    """What kept a rule from firing in a situation, and which lesson is behind it."""
+    rule, decision = book[name], consult(book, situation)
+    if decision.rule == name:
+        return f"{name} does fire: {why(book, decision)}"
+    if rule.proposed:
+        return f"{name} is only proposed by analogy: it fires once it is confirmed or seen right."
+    if not rule.positives:
+        return f"{name} has no conditions yet: nobody has seen it right."
+    blocked = outside(book.forest, rule, situation)
+    if not blocked:
+        return (
+            f"{name} could fire, but {decision.rule} comes before it{_wish(book, str(decision.rule), name)}."
+        )
+    parts = []
+    for tree in blocked:
+        moved = _last_move(book, name, tree)
+        since = f", since {moved.instance}" if moved else ""
+        parts.append(f"{_needs(book.forest[tree], rule.marks_in(tree).upper)}, not {situation[tree]}{since}")
+    return f"{name} would need {' and '.join(parts)}."
+
+
+def history(book: Rulebook, name: str) -> tuple[str, ...]:
+    """How far a rule has come, then each event that moved it, oldest first."""
+    rule = book[name]
+    seen = f"{len(rule.positives)} right and {len(rule.negatives)} wrong situations"
+    head = f"{name} is {STATUS[status(rule)]}: {seen}, {rule.quiet} lessons since a mark moved"
+    return (head, *(_event_text(event) for event in book.events if event.rule == name))
+
+
+STATUS = {
+    "proposed": "proposed by analogy",
+    "empty": "empty",
+    "shell": "a rule shell",
+    "stabilised": "a stabilised rule shell",
+    "firm": "a firm rule",
+}
+
+
+def forest_text(book: Rulebook, name: str) -> str:
+    """The trees of a rule, indented: ▲ its upper and ▼ its lower marks; a leaf is + inside, ? grey or −
+    outside."""
+    rule = book[name]
+    blocks = []
+    for tree, marks in zip(book.forest.trees, rule.marks, strict=True):
+        lines = [tree.name]
+        for value in tree.values:
+            signs = UPPER * (value == marks.upper) + LOWER * (value == marks.lower)
+            sign = f"{_leaf_sign(tree, marks.upper, marks.lower, value)} " if tree.is_leaf(value) else ""
+            indent = "  " * len(tree.path(value))
+            lines.append(f"{indent}{sign}{value} {signs}".rstrip())
+        blocks.append("\n".join(lines))
+    return "\n".join(blocks)
+
+
+def _because(book: Rulebook, decision: Decision) -> str:
+    """The conditions of the rule that fired, as they are met."""
+    if decision.rule is None:
+        return "no rule fires"
+    reasons = []
+    for tree, marks in zip(book.forest.trees, book[decision.rule].marks, strict=True):
+        if marks.upper != ROOT:
+            value = decision.situation[tree.name]
+            wider = f" ({marks.upper})" if marks.upper != value else ""
+            reasons.append(_says(tree, value) + wider)
+    return f"{decision.rule}, because {_listed(reasons) or 'no lesson speaks against it'}"
+
+
+def _outranked(book: Rulebook, decision: Decision) -> list[str]:
+    """The rules that could have fired too."""
+    return [
+        f"{name} could fire too, but comes after it{_wish(book, str(decision.rule), name)}"
+        for name in decision.conflict[1 : 1 + NEAREST]
+    ]
+
+
+def _nearest(book: Rulebook, decision: Decision) -> list[str]:
+    """The rules that one or two trees kept out, the nearest first."""
+    blocked = [
+        (outside(book.forest, rule, decision.situation), rule)
+        for rule in book.rules
+        if rule.may_fire and rule.name not in decision.conflict
+    ]
+    near = sorted((pair for pair in blocked if len(pair[0]) <= 2), key=lambda pair: len(pair[0]))
+    return [
+        f"{rule.name} would need {_listed([_needs(book.forest[t], rule.marks_in(t).upper) for t in trees])}"
+        for trees, rule in near[:NEAREST]
+    ]
+
+
+def _wish(book: Rulebook, better: str, worse: str) -> str:
+    """Which lesson put one rule before another."""
+    for wish in reversed(book.preferences):
+        if (wish.better, wish.worse) == (better, worse):
+            return f", as {wish.instance} taught"
+    return ""
+
+
+def _last_move(book: Rulebook, rule: str, tree: str) -> Event | None:
+    """The event that put a rule's upper mark of a tree where it is."""
+    for event in reversed(book.events):
+        if event.rule == rule and event.tree == tree and event.mark == "upper":
+            return event
+    return None
+
+
+def _event_text(event: Event) -> str:
+    """One event as a person tells it."""
+    when = event.instance or "by analogy"
+    if event.mark in ("upper", "lower"):
+        before = event.before or "nowhere"
+        return (
+            f"{when}: the {event.mark} mark in {event.tree} went from {before} to {event.after}: {event.why}"
+        )
+    return f"{when}: {event.why}"
+
+
+def _leaf_sign(tree: Tree, upper: str, lower: str | None, leaf: str) -> str:
+    if not tree.is_below(leaf, upper):
+        return "−"
+    return "+" if lower is not None and tree.is_below(leaf, lower) else "?"
+
+
+def _says(tree: Tree, value: str | None) -> str:
+    return f"{tree.about or tree.name + ' is'} {value or 'unknown'}"
+
+
+def _needs(tree: Tree, value: str) -> str:
+    return f"{tree.name} to be {value}"
+
+
+def _listed(parts: Sequence[str]) -> str:
+    """A, b and c."""
+    return " and ".join([*([", ".join(parts[:-1])] if parts[:-1] else []), *parts[-1:]])
+
+
+def rule_line(rule: Rule) -> str:
+    """A rule on one line: its upper marks as conditions, its action, its status."""
+    conditions = [f"{marks.tree} = {marks.upper}" for marks in rule.marks if marks.upper != ROOT]
+    return f"IF {' & '.join(conditions) or 'anything'} THEN {rule.action.skill} [{status(rule)}]"

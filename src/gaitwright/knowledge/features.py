@@ -1,0 +1,180 @@
+"""Constructive induction: a new tree where right and wrong are one and the same situation (§5.4.2.1,
+§6.7)."""
+
+import math
+import statistics
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import groupby, pairwise
+
+from gaitwright.knowledge.fitting import fit_all, with_instance
+from gaitwright.knowledge.forest import Forest, Situation
+from gaitwright.knowledge.generalise import raised
+from gaitwright.knowledge.learn import Inconsistency, Learned, closed, contradiction, moves
+from gaitwright.knowledge.memory import Fact
+from gaitwright.knowledge.rules import Event, Instance, Marks, Rule, Rulebook
+from gaitwright.knowledge.trees import ROOT, Tree, interval_tree, tree
+
+OTHER = "other"
+"""The leaf of a new tree for values that nobody has met yet."""
+MOST_BOUNDS = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Proposal:
+    """A new feature that tells the instances of a contradiction apart; a teacher accepts it or takes another.
+
+    `tree` is read from the measurement `tree.source`. `clearness` compares the gap between right and wrong
+    with the spread of that measurement over all instances: the larger, the less it is chance.
+    """
+
+    tree: Tree
+    clearness: float
+    sentence: str
+    trouble: Inconsistency
+
+
+def propose_features(book: Rulebook, trouble: Inconsistency) -> tuple[Proposal, ...]:
+    """Features made from what was measured besides the situation, the best first; none where nothing differs.
+
+    Only a measurement that tells apart all that were right and wrong in the same situation will do. Those
+    with fewer bounds come first, then the clearer ones.
+    """
+    rule = with_instance(book[trouble.rule], trouble.instance)
+    wrong_at = {negative.situation for negative in rule.negatives}
+    rights = [right for right in rule.positives if right.situation in wrong_at]
+    right_at = {right.situation for right in rights}
+    wrongs = [wrong for wrong in rule.negatives if wrong.situation in right_at]
+    everyone = [instance for other in book.rules for instance in (*other.positives, *other.negatives)]
+    proposals = []
+    for source in sorted({name for right in rights for name in right.raw}):
+        known = [instance.raw[source] for instance in (*everyone, trouble.instance) if source in instance.raw]
+        right_values = [right.raw[source] for right in rights if source in right.raw]
+        wrong_values = [wrong.raw[source] for wrong in wrongs if source in wrong.raw]
+        if len(wrong_values) == len(wrongs):
+            proposals += _proposal(book.forest, source, right_values, wrong_values, known, trouble)
+    return tuple(sorted(proposals, key=lambda proposal: (len(proposal.tree.bounds), -proposal.clearness)))
+
+
+def accept(book: Rulebook, proposal: Proposal) -> Learned:
+    """The rulebook with the new tree, every instance placed in it by its measurement, and the lesson learned.
+
+    An instance without that measurement keeps no value there: a right one binds no mark of the new tree, a
+    wrong one cannot be kept out by it.
+    """
+    added, trouble = proposal.tree, proposal.trouble
+    forest = Forest((*book.forest.trees, added))
+    rules = tuple(_with_tree(rule, added) for rule in book.rules)
+    wishes = tuple(
+        replace(wish, situation=_extended(wish.situation, added, None)) for wish in book.preferences
+    )
+    instance = _placed(trouble.instance, added)
+    born = Event(instance.id, trouble.rule, added.name, "tree", "", added.name, proposal.sentence)
+    grown = replace(book, forest=forest, rules=rules, preferences=wishes)
+    rule = grown[trouble.rule]
+    fitted = fit_all(forest, rule, instance, added.name)
+    if not isinstance(fitted, Rule):
+        return Learned(book, (), contradiction(grown, rule, instance, fitted))
+    events = (born, *moves(forest, rule, fitted, instance))
+    proposed = rule.proposed and not instance.speaks_for
+    return closed(grown, replace(fitted, quiet=0, proposed=proposed), events)
+
+
+def _proposal(
+    forest: Forest,
+    source: str,
+    rights: Sequence[Fact],
+    wrongs: Sequence[Fact],
+    known: Sequence[Fact],
+    trouble: Inconsistency,
+) -> list[Proposal]:
+    """The proposal that one measurement makes, or none where it cannot tell right from wrong."""
+    name = source
+    while name in forest.names:
+        name += " (finer)"
+    numbers = [value for value in known if not isinstance(value, str) and math.isfinite(value)]
+    if len(numbers) == len(known):
+        found = _intervals(name, [float(v) for v in rights], [float(v) for v in wrongs], numbers)
+    elif not numbers and not set(rights) & set(wrongs):
+        found = _names(name, [str(v) for v in rights], [str(v) for v in wrongs], [str(v) for v in known])
+    else:
+        found = None
+    if found is None:
+        return []
+    grown, clearness = found
+    said_right, said_wrong = (
+        " or ".join(sorted({str(_leaf(grown, v)) for v in vs})) for vs in (rights, wrongs)
+    )
+    sentence = (
+        f"{trouble.rule} was right where {source} was {said_right} and wrong where it was {said_wrong}, "
+        f"in the same situation otherwise: {source} should be a feature"
+    )
+    return [Proposal(replace(grown, source=source), clearness, sentence, trouble)]
+
+
+def _intervals(
+    name: str, rights: Sequence[float], wrongs: Sequence[float], known: Sequence[float]
+) -> tuple[Tree, float] | None:
+    """Intervals with a bound wherever right turns into wrong, and how wide the narrowest gap is [spreads]."""
+    ordered = sorted({(value, True) for value in rights} | {(value, False) for value in wrongs})
+    runs = [[value for value, _ in run] for _, run in groupby(ordered, key=lambda pair: pair[1])]
+    gaps = [(low[-1], high[0]) for low, high in pairwise(runs)]
+    if not 1 <= len(gaps) <= MOST_BOUNDS or any(low >= high for low, high in gaps):
+        return None
+    spread = statistics.pstdev(known)
+    bounds = [round_between(low, high) for low, high in gaps]
+    return interval_tree(name, "", bounds), min(high - low for low, high in gaps) / spread
+
+
+def _names(
+    name: str, rights: Sequence[str], wrongs: Sequence[str], known: Sequence[str]
+) -> tuple[Tree, float] | None:
+    """The values met so far, those that were right under one value of their own, those that were wrong
+    too."""
+    groups = [sorted(set(rights)), sorted(set(wrongs))]
+    rest = [[value] for value in sorted(set(known) - set(rights) - set(wrongs) - {OTHER})]
+    shape = [row[0] if len(row) == 1 else {" or ".join(row): row} for row in (*groups, *rest)]
+    met = {value for row in (*groups, *rest) for value in row}
+    if ROOT in met or not all(value.strip() and value.isprintable() and len(value) <= 60 for value in met):
+        return None
+    return tree(name, (*shape, *(() if OTHER in met else (OTHER,)))), 1.0
+
+
+def round_between(low: float, high: float) -> float:
+    """The number in (low, high] with the fewest digits, near the middle: a bound that a person would set."""
+    middle = low + (high - low) / 2
+    for digits in range(-6, 16):
+        bound = round(middle, digits)
+        if low < bound <= high:
+            return bound
+    return high
+
+
+def _leaf(grown: Tree, value: Fact | None) -> str | None:
+    """Where a measurement belongs in a proposed tree; `None` where it was not taken."""
+    if value is None or (grown.bounds and (isinstance(value, str) or math.isnan(value))):
+        return None
+    if grown.bounds:
+        return grown.leaf_of(float(value))
+    return value if isinstance(value, str) and value in grown.leaf_place else OTHER
+
+
+def _extended(situation: Situation, added: Tree, value: Fact | None) -> Situation:
+    return Situation((*situation.trees, added.name), (*situation.values, _leaf(added, value)))
+
+
+def _placed(instance: Instance, added: Tree) -> Instance:
+    """The instance with its place in the new tree."""
+    return replace(instance, situation=_extended(instance.situation, added, instance.raw.get(added.source)))
+
+
+def _with_tree(rule: Rule, added: Tree) -> Rule:
+    """The rule over one more tree: nothing is excluded there, and all right values are below the lower
+    mark."""
+    positives = tuple(_placed(positive, added) for positive in rule.positives)
+    marks = Marks(added.name)
+    for positive in positives:
+        value = positive.situation.values[-1]
+        marks = marks if value is None else raised(added, marks, value)
+    negatives = tuple(_placed(negative, added) for negative in rule.negatives)
+    return replace(rule, marks=(*rule.marks, marks), positives=positives, negatives=negatives)

@@ -1,0 +1,300 @@
+"""Feature trees: the values of one feature, from "any" down to leaves that exclude each other (§5.4.2.1).
+
+The values below a value exclude each other and leave nothing out, so a value *is* the set of the leaves
+below it. That set is kept as the bits of one int: below, least upper bound and regrouping are set algebra.
+No value stands alone below another, so no two values of a tree mean the same leaves.
+"""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import Any
+
+from gaitwright.errors import WrongUse, unknown
+
+ROOT = "any"
+"""The value at the top of every tree, true in every situation (the thesis's TRUE)."""
+MAX_LEAVES = 512
+MAX_DEPTH = 16
+MAX_LABEL = 200
+
+Shape = Mapping[str, Any] | Sequence[Any]
+"""Nested values in order: a mapping of values to the shapes below them, or a row of leaves and mappings."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tree:
+    """One feature: `values` in order, `parents` the place each hangs below (−1 for the root).
+
+    Values stand in order, each branch to its end before the next.
+    `about` is how a sentence on it begins ("the ground is"). With `bounds` the leaves are half-open
+    intervals [bounds[k−1], bounds[k]) of a number in `unit`, in ascending order, open at both ends.
+    `source` is the fact that the feature is read from, where it is not named as the tree is.
+    """
+
+    name: str
+    values: tuple[str, ...]
+    parents: tuple[int, ...]
+    about: str = ""
+    unit: str = ""
+    bounds: tuple[float, ...] = ()
+    source: str = ""
+    place: dict[str, int] = field(init=False, repr=False, compare=False)
+    sets: tuple[int, ...] = field(init=False, repr=False, compare=False)
+    leaves: tuple[str, ...] = field(init=False, repr=False, compare=False)
+    leaf_place: dict[str, int] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        """Derives the leaf sets. Raises `WrongUse` where this is no tree of exclusive values."""
+        _check_labels(self)
+        _check_parents(self)
+        sets, leaves = _leaf_sets(self.values, self.parents)
+        _check_leaves(self, leaves)
+        derive = object.__setattr__
+        derive(self, "place", {value: k for k, value in enumerate(self.values)})
+        derive(self, "sets", sets)
+        derive(self, "leaves", leaves)
+        derive(self, "leaf_place", {leaf: k for k, leaf in enumerate(leaves)})
+
+    def at(self, value: str) -> int:
+        """The place of a value. Raises `WrongUse` naming the values there are."""
+        try:
+            return self.place[value]
+        except KeyError:
+            raise unknown(f"value of {self.name}", value, self.values) from None
+
+    def is_leaf(self, value: str) -> bool:
+        return value in self.leaf_place
+
+    def parent(self, value: str) -> str | None:
+        """The value it hangs below; `None` for the root."""
+        above = self.parents[self.at(value)]
+        return None if above < 0 else self.values[above]
+
+    def children(self, value: str) -> tuple[str, ...]:
+        here = self.at(value)
+        return tuple(child for child, above in zip(self.values, self.parents, strict=True) if above == here)
+
+    def path(self, value: str) -> tuple[str, ...]:
+        """From the root down to the value, both included."""
+        steps, here = [], self.at(value)
+        while here >= 0:
+            steps.append(self.values[here])
+            here = self.parents[here]
+        return tuple(reversed(steps))
+
+    def is_below(self, value: str, mark: str) -> bool:
+        """Whether the value is in the subtree that the mark dominates, the mark itself included."""
+        return not self.sets[self.at(value)] & ~self.sets[self.at(mark)]
+
+    def least_upper_bound(self, a: str, b: str) -> str:
+        """The lowest value that both are below."""
+        here, wanted = self.at(a), self.sets[self.at(b)]
+        while wanted & ~self.sets[here]:
+            here = self.parents[here]
+        return self.values[here]
+
+    def child_towards(self, value: str, below: str) -> str:
+        """The value one step down from `value` towards `below`. Raises `WrongUse` where that is not below
+        it."""
+        top, here = self.at(value), self.at(below)
+        while here >= 0 and self.parents[here] != top:
+            here = self.parents[here]
+        if here < 0:
+            raise WrongUse(f"in tree {self.name} no way leads down from {value!r} to {below!r}")
+        return self.values[here]
+
+    def steps(self, a: str, b: str) -> int:
+        """How many branches the way from a to b has: how unlike two values are."""
+        shared = len(self.path(self.least_upper_bound(a, b)))
+        return len(self.path(a)) + len(self.path(b)) - 2 * shared
+
+    def leaves_below(self, value: str) -> tuple[str, ...]:
+        bits = self.sets[self.at(value)]
+        return tuple(leaf for k, leaf in enumerate(self.leaves) if bits >> k & 1)
+
+    def leaf_of(self, number: float) -> str:
+        """The interval that holds a number in `unit`. Raises `WrongUse` for NaN or where leaves are no
+        intervals."""
+        if not self.bounds:
+            raise WrongUse(
+                f"tree {self.name} has names, not intervals: {', '.join(self.leaves)}; got {number}"
+            )
+        if math.isnan(number):
+            raise WrongUse(f"{self.name} is not a number [{self.unit}]: no interval holds it")
+        return self.leaves[sum(number >= bound for bound in self.bounds)]
+
+    def set_of(self, values: Sequence[str]) -> int:
+        """The leaves below any of the values, as bits."""
+        bits = 0
+        for value in values:
+            bits |= self.sets[self.at(value)]
+        return bits
+
+
+def tree(name: str, shape: Shape, about: str = "") -> Tree:
+    """A tree from nested values in order: `{"even": ("flat", "slippery"), "stairs": ()}`; a bare str is a
+    leaf."""
+    values, parents = [ROOT], [-1]
+    _hang(name, shape, 0, values, parents)
+    return Tree(name, tuple(values), tuple(parents), about)
+
+
+def interval_tree(
+    name: str, unit: str, bounds: Sequence[float], labels: Sequence[str] | Mapping = (), about: str = ""
+) -> Tree:
+    """Half-open intervals of a number between ascending `bounds`, one more than these.
+
+    Labels nested as for `tree` give the grouping; a flat row of them (or none: then they say the bounds) is
+    halved again and again, so that a run of neighbours has a value of its own wherever a cut allows.
+    """
+    cuts = tuple(float(bound) for bound in bounds)
+    if isinstance(labels, Mapping) or any(not isinstance(label, str) for label in labels):
+        grown = tree(name, labels)
+    else:
+        row = tuple(labels) or _interval_labels(cuts, unit)
+        if len(row) != len(cuts) + 1:
+            raise WrongUse(
+                f"tree {name}: {len(cuts)} bounds make {len(cuts) + 1} intervals, got {len(row)} labels"
+            )
+        grown = tree(name, _halved(row))
+    return Tree(name, grown.values, grown.parents, about, unit, cuts)
+
+
+def regrouped(old: Tree, groups: Mapping[int, str]) -> Tree:
+    """The same leaves under other inner values: `groups` maps leaf sets (bits of `old`) to labels.
+
+    The sets must be nested or apart (see `nest`); groups of one leaf or of all are there anyway.
+    """
+    whole = (1 << len(old.leaves)) - 1
+    names = {whole: ROOT}
+    names |= {bits: label for bits, label in groups.items() if bits != whole and bits.bit_count() > 1}
+    names |= {1 << k: leaf for k, leaf in enumerate(old.leaves)}
+    values, parents, open_sets = [], [], []
+    # Sorted by the lowest leaves of all sets around it, each set follows what it hangs below.
+    for bits in sorted(names, key=lambda bits: _position(bits, names)):
+        while open_sets and bits & ~open_sets[-1][0]:
+            open_sets.pop()
+        values.append(names[bits])
+        parents.append(open_sets[-1][1] if open_sets else -1)
+        open_sets.append((bits, len(values) - 1))
+    return Tree(old.name, tuple(values), tuple(parents), old.about, old.unit, old.bounds, old.source)
+
+
+def nest(sets: Sequence[int]) -> bool:
+    """Whether any two of the sets are apart or one within the other: what a tree can hold."""
+    return all(not a & b or not a & ~b or not b & ~a for i, a in enumerate(sets) for b in sets[:i])
+
+
+def _position(bits: int, names: Mapping[int, str]) -> list[int]:
+    """Where a set stands in the order of the tree: the lowest leaf of each set around it, from the root
+    down."""
+    around = sorted((other for other in names if not bits & ~other), key=int.bit_count, reverse=True)
+    return [(other & -other).bit_length() for other in around]
+
+
+def _hang(name: str, shape: Any, parent: int, values: list[str], parents: list[int]) -> None:
+    """Appends the values of a shape below the value at place `parent`, each branch to its end before the
+    next."""
+    if len(values) > 2 * MAX_LEAVES:
+        raise WrongUse(f"tree {name} has more than {MAX_LEAVES} leaves")
+    for value, below in _entries(name, shape):
+        values.append(value)
+        parents.append(parent)
+        if below:
+            _hang(name, below, len(values) - 1, values, parents)
+
+
+def _entries(name: str, shape: Any) -> Iterator[tuple[str, Any]]:
+    """The values directly in a shape, each with the shape below it."""
+    if isinstance(shape, Mapping):
+        yield from shape.items()
+        return
+    if isinstance(shape, str) or not isinstance(shape, Sequence):
+        raise WrongUse(f"tree {name}: values are given in order, as dicts and tuples; got {shape!r}")
+    for entry in shape:
+        if isinstance(entry, Mapping):
+            yield from entry.items()
+        else:
+            yield entry, None
+
+
+def _halved(row: tuple[str, ...]) -> Shape:
+    """A row of neighbours as halves of halves, the inner ones labelled by their ends."""
+    if len(row) <= 2:
+        return row
+    middle = (len(row) + 1) // 2
+    halves = (row[:middle], row[middle:])
+    return tuple(half[0] if len(half) == 1 else {run_label(half): _halved(half)} for half in halves)
+
+
+def run_label(row: Sequence[str]) -> str:
+    """What a run of neighbouring intervals is called."""
+    return f"{row[0]} to {row[-1]}"
+
+
+def _interval_labels(cuts: tuple[float, ...], unit: str) -> tuple[str, ...]:
+    between = [f"{low:g} … {high:g} {unit}".strip() for low, high in pairwise(cuts)]
+    return (f"< {cuts[0]:g} {unit}".strip(), *between, f"≥ {cuts[-1]:g} {unit}".strip()) if cuts else ()
+
+
+def _leaf_sets(values: Sequence[str], parents: Sequence[int]) -> tuple[tuple[int, ...], tuple[str, ...]]:
+    """Per value the bits of the leaves below it, and the leaves in the order of their bits."""
+    inner = set(parents)
+    leaves = [k for k in range(len(values)) if k not in inner]
+    sets = [0] * len(values)
+    for bit, leaf in enumerate(leaves):
+        here = leaf
+        while here >= 0:
+            sets[here] |= 1 << bit
+            here = parents[here]
+    return tuple(sets), tuple(values[leaf] for leaf in leaves)
+
+
+def _check_labels(t: Tree) -> None:
+    """Raises `WrongUse` for labels that no person could tell apart or read."""
+    for label in (t.name, *t.values):
+        if not label.strip() or len(label) > MAX_LABEL or not label.isprintable():
+            raise WrongUse(
+                f"tree {t.name!r}: {label!r} is no label; it needs 1 to {MAX_LABEL} printable characters"
+            )
+    seen: set[str] = set()
+    for value in t.values:
+        if value in seen:
+            raise WrongUse(f"tree {t.name} has the value {value!r} twice")
+        seen.add(value)
+
+
+def _check_parents(t: Tree) -> None:
+    """Raises `WrongUse` where the values do not stand in order, each branch to its end before the next."""
+    if len(t.parents) != len(t.values) or not t.values or t.values[0] != ROOT or t.parents[0] != -1:
+        raise WrongUse(f"tree {t.name} must begin with {ROOT!r} and give each other value its parent")
+    branch = [0]  # from the root to the value before
+    for k, above in enumerate(t.parents[1:], start=1):
+        if above not in branch:
+            raise WrongUse(f"tree {t.name}: {t.values[k]!r} hangs below place {above}; it may be {branch}")
+        branch = [*branch[: branch.index(above) + 1], k]
+        if len(branch) > MAX_DEPTH + 1:
+            raise WrongUse(f"tree {t.name} is deeper than {MAX_DEPTH}")
+
+
+def _check_leaves(t: Tree, leaves: tuple[str, ...]) -> None:
+    """Raises `WrongUse` for a value that has one value below it, for too many leaves, or bounds that do
+    not fit."""
+    for k, value in enumerate(t.values):
+        if t.parents.count(k) == 1:
+            only = t.values[t.parents.index(k)]
+            raise WrongUse(
+                f"tree {t.name}: {only!r} is the only value below {value!r}, so both mean the same"
+            )
+    if not 2 <= len(leaves) <= MAX_LEAVES:
+        raise WrongUse(f"tree {t.name} has {len(leaves)} leaves; a tree has 2 to {MAX_LEAVES}")
+    ascending = all(low < high for low, high in pairwise(t.bounds))
+    if t.bounds and not (
+        len(t.bounds) + 1 == len(leaves) and ascending and all(math.isfinite(bound) for bound in t.bounds)
+    ):
+        raise WrongUse(
+            f"tree {t.name}: bounds must be finite, ascending and one fewer than its {len(leaves)} leaves; "
+            f"got {list(t.bounds)}"
+        )

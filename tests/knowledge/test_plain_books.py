@@ -1,0 +1,104 @@
+"""A rulebook survives plain data; what is no rulebook is refused with a sentence."""
+
+import json
+
+import numpy as np
+import pytest
+from histories import run_histories
+from random_books import random_forest, random_situation
+
+from gaitwright.errors import BadFile
+from gaitwright.knowledge.learn import Lesson
+from gaitwright.knowledge.memory import Action
+from gaitwright.knowledge.plain import dumps, from_plain, loads, to_plain
+from gaitwright.knowledge.rules import Rulebook
+from gaitwright.knowledge.teach import teach
+
+
+def taught_book(seed: int) -> Rulebook:
+    """A book of three rules after some corrections, those that contradict each other left out."""
+    rng = np.random.default_rng(seed)
+    book = Rulebook(random_forest(rng, 4))
+    for k in range(12):
+        rule = f"rule {k % 3}"
+        action = Action(rule, 0.1, 1.0, "there", (("at", "B"), ("height", 0.3)), ("at",), (("size", 2.0),))
+        raw = {"friction": float(rng.random()), "ground": "grass"}
+        situation = random_situation(rng, book.forest)
+        book = teach(book, Lesson("omission", rule, situation, raw=raw, action=action)).book
+    return book
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_plain_and_back(seed):
+    book = taught_book(seed)
+    assert loads(dumps(book)) == book
+    assert from_plain(json.loads(json.dumps(to_plain(book)))) == book
+
+
+def spoiled(path, value):
+    """The plain book with one place changed."""
+    plain = json.loads(dumps(taught_book(3)))
+    *way, last = path
+    place = plain
+    for step in way:
+        place = place[step]
+    place[last] = value
+    return plain
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "message"),
+    [
+        (("format",), 2, "format"),
+        (("trees",), [], "trees"),
+        (("colour",), "red", "unknown field `colour`"),
+        (("trees", 0, "values", 2), "any", "twice"),
+        (("trees", 0, "values", 1), "", "no label"),
+        (("trees", 0, "values", 1), "x" * 300, "200"),
+        (("trees", 0, "parents", 1), 5, "hangs below"),
+        (("trees", 0, "parents", 0), 0, "must begin with"),
+        (("trees", 1, "name"), "a", "two trees named 'a'"),
+        (("rules", 1, "name"), "rule 0", "two rules named 'rule 0'"),
+        (("rules", 0, "upper", 0), "nowhere", "no value of a 'nowhere'"),
+        (("rules", 0, "lower"), ["any"], "marks in"),
+        (("rules", 0, "choices"), [["a", []]] * 99, "choices for"),
+        (("rules", 0, "positives", 0, "values", 0), "any", "no leaf of a"),
+        (("rules", 0, "positives", 0, "values"), ["any"], "a situation of 1 values"),
+        (("rules", 0, "positives", 0, "kind"), "commission", "among the wrong instances"),
+        (("rules", 0, "positives", 0, "kind"), "guess", "kind"),
+        (("rules", 0, "action", "slowest"), 9.0, "no range"),
+        (("rules", 0, "action", "skill"), " ", "names a skill"),
+        (("rules", 0, "quiet"), -1, "quiet"),
+        (("preferences",), [{"better": "x", "worse": "y", "values": ["any"], "instance": ""}], "values"),
+    ],
+)
+def test_a_spoiled_book_is_refused(path, value, message):
+    with pytest.raises(BadFile, match=message):
+        from_plain(spoiled(path, value), "rules.json")
+
+
+def test_marks_that_do_not_fit_their_instances_are_refused():
+    book = taught_book(3)
+    plain = json.loads(dumps(book))
+    for k, rule in enumerate(book.rules):
+        if rule.negatives:
+            plain["rules"][k]["upper"] = ["any"] * len(book.forest.names)
+            break
+    with pytest.raises(BadFile, match="the marks do not fit"):
+        from_plain(plain)
+    plain = json.loads(dumps(book))
+    leaf = book.rules[0].positives[0].situation.values[0]
+    other = next(value for value in book.forest.trees[0].leaves if value != leaf)
+    plain["rules"][0]["upper"] = [other, *plain["rules"][0]["upper"][1:]]
+    with pytest.raises(BadFile, match="rulebook: rule 0"):
+        from_plain(plain)
+
+
+def test_what_is_not_json_is_refused():
+    for content in (b"", b"{", b"[" * 100_000, b"\xff", b"null", b"3"):
+        with pytest.raises(BadFile, match=r"book\.json"):
+            loads(content, "book.json")
+
+
+def test_histories_are_the_same_for_the_same_seed():
+    assert run_histories(5, 10, 5) == run_histories(5, 10, 5)
