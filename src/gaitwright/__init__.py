@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from gaitwright.signals import Sensed as Sensed
     from gaitwright.signals import SkillCall as SkillCall
     from gaitwright.signals import Torques as Torques
+    from gaitwright.skillbook.book import Skillbook as Skillbook
 
     __version__: str
 
@@ -47,6 +48,7 @@ _ROOMS = {
     "plant.simulation": ("MujocoPlant",),
     "recording": ("Recording", "Report", "walk"),
     "signals": ("Gait", "Mission", "MotionTarget", "Route", "Sensed", "SkillCall", "Torques"),
+    "skillbook.book": ("Skillbook",),
 }
 _HOME = {name: f"gaitwright.{room}" for room, names in _ROOMS.items() for name in names}
 

@@ -19,6 +19,7 @@ from gaitwright.errors import unknown
 from gaitwright.gait.coordinator import Coordinator
 from gaitwright.gait.cycle import Manner, desired_cycle
 from gaitwright.gait.state import GaitMemory
+from gaitwright.knowledge.rules import Rulebook
 from gaitwright.model.footing import Footing
 from gaitwright.model.robot import Robot
 from gaitwright.model.scene import Scene
@@ -26,6 +27,7 @@ from gaitwright.navigation.navigator import Navigator
 from gaitwright.signals import Gait, Mission, MotionTarget, Route, Sensed, SkillCall, Torques
 from gaitwright.skills.caution import Cautious
 from gaitwright.skills.chooser import PlainChooser
+from gaitwright.skills.rule_chooser import RuleChooser
 from gaitwright.watch import Verdict, Watch
 
 LOOK_EVERY = 0.1
@@ -84,7 +86,7 @@ class Brain:
     """Programmed motions worked out so far, by gait, velocity and yaw rate."""
 
     @classmethod
-    def of(
+    def of(  # noqa: PLR0913 - the door to all settings; most calls name two of these
         cls,
         robot: Robot,
         scene: Scene,
@@ -92,20 +94,24 @@ class Brain:
         dt: float = 0.002,
         method: Method = "qp",
         sees: bool = True,
+        rulebook: Rulebook | None = None,
     ) -> "Brain":
         """A brain for a robot in a scene it knows, its torques by the numerical controller.
 
         `chooser`: by default the plain rules of `skills.chooser`; `dt`: control period [s]; `method`: how
-        foot forces are shared, `"qp"` or the thesis's `"lp"`; `sees`: whether feet know the ground ahead.
+        foot forces are shared, `"qp"` or the thesis's `"lp"`; `sees`: whether feet know the ground ahead;
+        `rulebook`: rules that choose the skills in the place of a chooser.
         """
         footing = Footing.of(scene, robot) if sees else Footing.blind()
-        chooser = chooser or PlainChooser(robot)
+        if chooser is None:
+            chooser = PlainChooser(robot) if rulebook is None else RuleChooser(robot, rulebook)
+        numerical = NumericalController(robot, method)
         return cls(
             robot,
-            Navigator.of(robot, scene),
+            Navigator.of(robot, scene, sees),
             Cautious(chooser, robot, footing) if footing.is_known else chooser,
             Coordinator(robot, dt, footing),
-            {"numerical": NumericalController(robot, method), "kinematic": KinematicController(robot)},
+            {"numerical": numerical, "hybrid": numerical, "kinematic": KinematicController(robot)},
         )
 
     def controller(self, call: SkillCall) -> Controller:

@@ -8,7 +8,8 @@ SI units and radians. `_w`: world axes; `_b`: base axes; quaternions `(w, x, y, 
 """
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -70,6 +71,30 @@ class Mission:
 
 
 @dataclass(frozen=True, slots=True)
+class Scan:
+    """What is known of the ground ahead, from where the robot is and along its heading (row V3)."""
+
+    slope: float = 0.0
+    """Mean slope ahead, uphill positive [rad]."""
+    cross: float = 0.0
+    """Slope across, rising to the left positive [rad]."""
+    roughness: float = 0.0
+    """Standard deviation of the ground from that slope [m]; stairs are rough too."""
+    step_up: float = 0.0
+    """Highest sudden rise from that slope [m]."""
+    step_down: float = 0.0
+    """Deepest sudden drop from that slope, positive [m]; a gap is none."""
+    gap: float = 0.0
+    """Widest hole ahead with ground on its other side [m]."""
+    obstacle: float = math.inf
+    """Distance to the next thing too high to step on [m]."""
+    street: float = 0.0
+    """World direction of the way ahead [rad]."""
+    familiar: bool = False
+    """Whether this trip has come along here before."""
+
+
+@dataclass(frozen=True, slots=True)
 class Route:
     """Which way: what is left of the path, and how far."""
 
@@ -84,6 +109,10 @@ class Route:
     """Whether the robot has come to its goal."""
     no_way: str | None = None
     """Why there is no path to the goal, as a sentence."""
+    ahead: Scan | None = None
+    """The ground ahead; `None` where nobody looked."""
+    travelled: frozenset[tuple[int, int]] = frozenset()
+    """Where this trip has been, as cells of a grid."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,6 +143,8 @@ class SkillCall:
     """Why this skill, as a sentence."""
     halt: str | None = None
     """Why the robot must not go on, as a sentence."""
+    memory: Mapping[str, str | float] = field(default_factory=dict, hash=False)
+    """Working memory after this choice: what rules added and have not deleted."""
 
 
 @dataclass(frozen=True, slots=True)

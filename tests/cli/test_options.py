@@ -75,7 +75,7 @@ WRONG = [
     ([*MISSION, "--seed", "-1"], "'-1' is not a whole number"),
     ([*MISSION, "--driver", "learned"], "driver 'learned' does not exist yet; there is: numerical"),
     ([*MISSION, "--driver", "numericl"], "no driver 'numericl'; there is: numerical"),
-    ([*MISSION, "--skillbook", "a.skills"], "nothing reads the skillbook 'a.skills' yet"),
+    ([*MISSION, "--skillbook", "a.skills"], "driver hybrid and --skillbook FILE go together"),
     ([*MISSION, "--distribution", "lq"], "no distribution 'lq'; there is: qp, lp"),
     (["skill", "--push", "1"], "argument --push: expected 2 arguments"),
     (["demo", "fast"], "unrecognized arguments: fast"),

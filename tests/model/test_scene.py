@@ -86,10 +86,10 @@ def test_a_scene_is_as_high_as_its_highest_thing() -> None:
 
 
 def test_only_what_is_too_high_to_step_on_is_an_obstacle() -> None:
-    low, high = Box(0.0, 0.0, 0.0, 1.0, 1.0, 0.05), Box(3.0, 0.0, 0.0, 1.0, 1.0, 0.13)
+    low, high = Box(0.0, 0.0, 0.0, 1.0, 1.0, 0.05), Box(3.0, 0.0, 0.0, 1.0, 1.0, 0.07)
     scene = Scene("two", Flat(), (low, high))
     assert scene.obstacles(DOG) == (high,)
-    assert scene.obstacles(DOG, step=0.6) == ()
+    assert scene.obstacles(DOG, step=0.5) == ()
 
 
 # --- built-in scenes -----------------------------------------------------------------------------

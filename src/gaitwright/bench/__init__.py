@@ -10,6 +10,7 @@ GROUPS = {
     "spine": ("walks", "ground", "pushes", "lp", "robots", "missions", "tick", "speed"),
     "skills": ("skills", "transitions", "terrain", "anyrobot", "cost"),
     "mechanics": ("dynamics", "sharing", "streaming", "armstrong"),
+    "rules": ("rules", "school", "kills"),
 }
 """Groups of claims, each claim the name of a module here, in the order in which they are measured."""
 

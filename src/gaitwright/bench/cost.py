@@ -57,7 +57,7 @@ def changes(curves: dict[str, Curve]) -> list[tuple[float, str]]:
     told: list[tuple[float, str]] = []
     for speed in np.arange(SLOWEST, 3.0, 0.05).tolist():
         costs = {
-            gait: float(np.interp(speed, *zip(*points, strict=True)))
+            gait: float(np.interp(speed, [v for v, _ in points], [cost for _, cost in points]))
             for gait, points in curves.items()
             if points and points[0][0] <= speed <= points[-1][0]
         }

@@ -3,20 +3,32 @@
 from argparse import Namespace
 
 from gaitwright.cli import trips
+from gaitwright.cli.books import rulebook_of
+from gaitwright.errors import WrongUse
+from gaitwright.locomotion import Chooser
+from gaitwright.model.robot import Robot
 from gaitwright.signals import Mission
 from gaitwright.skills.chooser import PlainChooser
+from gaitwright.skills.rule_chooser import RuleChooser
 
 
 def run(args: Namespace) -> int:
     trips.check_outputs(args)
+    if (args.driver == "hybrid") != (args.skillbook is not None):
+        raise WrongUse("driver hybrid and --skillbook FILE go together: the rules choose the skills")
     robot = trips.find_robot(args.robot)
     scene = trips.find_scene(args.scene, args.seed, robot, args.start)
     points = tuple(args.waypoints or [tuple(args.goal)])
     for point in points[:-1]:
         trips.check_inside("way-point", point, scene)
     trips.check_inside("goal", points[-1], scene)
-    chooser = PlainChooser(robot)
     if args.speed is not None:
-        chooser.gait_for(args.speed)  # refuses a speed beyond the robot's reach
+        PlainChooser(robot).gait_for(args.speed)  # refuses a speed beyond the robot's reach
+    chooser = chooser_of(robot, args)
     setting = trips.set_up(robot, scene, chooser, args.distribution)
     return trips.run(setting, Mission(points, args.speed, args.driver), args)
+
+
+def chooser_of(robot: Robot, args: Namespace) -> Chooser:
+    """Who chooses the skills: the rules of a skillbook where the driver is hybrid, else the plain ones."""
+    return RuleChooser(robot, rulebook_of(args.skillbook)) if args.skillbook else PlainChooser(robot)

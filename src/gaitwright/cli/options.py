@@ -21,7 +21,6 @@ from gaitwright.cli.words import (
     point,
     positive,
     seed,
-    skillbook,
 )
 from gaitwright.errors import WrongUse, unknown
 from gaitwright.plant.offers import INTEGRATORS, PLANTS
@@ -91,6 +90,31 @@ COMMANDS = {
             "gaitwright skills --cycle mine.json --out mine.png",
         ),
     ),
+    "teach": Command(
+        "the school: a scripted teacher makes a skillbook for a robot",
+        "A scripted teacher shows which skill she uses where, then lets the rules choose, trip after trip, "
+        "and steps in where they are wrong. Trips are situations along a way, without physics; what was "
+        "learned drives real ones. Every lesson is in the file before the next trip begins, and an interrupt "
+        "keeps it.",
+        (
+            "gaitwright teach --lesson skills --robot go2 --out go2.skills",
+            "gaitwright explain go2.skills",
+            "gaitwright mission --driver hybrid --skillbook go2.skills --scene stairs --goal 6.5 0",
+        ),
+    ),
+    "explain": Command(
+        "why a rule fires or not, and what moved its marks",
+        "Tells what a rulebook knows: its rules in order, each in a sentence. With a situation: which rule "
+        "fires, why, why not another, what would have to be different, and which lessons moved its marks. "
+        "A tree that is left out of the situation is taken as the last lesson had it, and that is said; a "
+        "value may be a number where the tree has intervals. --recording takes what it can from a recorded "
+        "moment.",
+        (
+            "gaitwright explain garden.json",
+            "gaitwright explain garden.json --situation ground=gravel speed=0.8 --not trot",
+            "gaitwright explain garden.json --rule trot --plot     # its trees as a picture",
+        ),
+    ),
     "bench": Command(
         "every claim, measured",
         "Measures what this project claims about itself, on this machine. Without names: everything.",
@@ -116,7 +140,7 @@ COMMANDS = {
     ),
 }
 
-HIDDEN = ("--skillbook", "--version")
+HIDDEN = ("--version",)
 """Options that no command's help shows."""
 
 EPILOG = """\
@@ -232,6 +256,8 @@ def add_mission(parser: argparse.ArgumentParser) -> None:
     where.add_argument("--waypoints", type=point, nargs="+", metavar="X,Y", help=through)
     fitting = "wished speed in m/s (what the robot trots at)"
     parser.add_argument("--speed", type=positive, metavar="V", help=fitting)
+    rules = "driver hybrid: the rules that choose the skills, as a school left them"
+    parser.add_argument("--skillbook", metavar="FILE", help=rules)
     add_run(parser, seconds=120.0)
 
 
@@ -270,7 +296,6 @@ def add_robot_and_scene(parser: argparse.ArgumentParser, scene: str) -> None:
 def add_run(parser: argparse.ArgumentParser, seconds: float) -> None:
     who = "who computes the torques: " + "; ".join(f"{name}, which {what}" for name, what in DRIVERS.items())
     parser.add_argument("--driver", type=driver, default="numerical", metavar="NAME", help=who)
-    parser.add_argument("--skillbook", type=skillbook, metavar="FILE", help=argparse.SUPPRESS)
     how = "how the numerical driver shares the load over the feet: qp, or lp as in the thesis (qp)"
     parser.add_argument("--distribution", type=distribution, default="qp", metavar="qp|lp", help=how)
     longest = (
@@ -324,6 +349,32 @@ def add_skills(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", metavar="FILE", help="where to draw (runs/skills-ROBOT.png)")
 
 
+def add_teach(parser: argparse.ArgumentParser) -> None:
+    lesson = "what is taught: skills, which to use where (skills)"
+    parser.add_argument("--lesson", choices=["skills"], default="skills", metavar="NAME", help=lesson)
+    robot = "a name that `gaitwright robots` lists, or an MJCF or URDF file (go2)"
+    parser.add_argument("--robot", default="go2", metavar="NAME|FILE", help=robot)
+    parser.add_argument("--out", required=True, metavar="BOOK", help="a new skillbook, e.g. go2.skills")
+    trips = "trips that the rules make with the teacher watching (60)"
+    parser.add_argument("--trips", type=count, default=60, metavar="N", help=trips)
+    parser.add_argument("--seed", type=seed, default=0, metavar="N", help="draws the trips (0)")
+
+
+def add_explain(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("book", metavar="BOOK", help="the rulebook's file")
+    where = "the situation: a value for each tree that matters"
+    parser.add_argument("--situation", nargs="+", metavar="TREE=VALUE", help=where)
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument("--rule", metavar="NAME", help="tell of this rule: its conditions and its trees")
+    why_not = "tell why this rule does not fire (in the situation of the last lesson)"
+    which.add_argument("--not", dest="why_not", metavar="NAME", help=why_not)
+    which.add_argument("--history", metavar="NAME", help="tell what every lesson did to this rule")
+    parser.add_argument("--recording", metavar="FILE", help="take the situation from a recording")
+    parser.add_argument("--at", type=finite, metavar="T", help="at this moment of it, in seconds (its end)")
+    parser.add_argument("--plot", action="store_true", help="draw the trees, see --out")
+    parser.add_argument("--out", metavar="FILE", help="where to draw (runs/explain-BOOK.png)")
+
+
 def add_bench(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("names", nargs="*", metavar="NAME", help="what to measure (everything)")
     parser.add_argument("--quick", action="store_true", help="fewer repetitions: a look, not a result")
@@ -346,6 +397,8 @@ ADD = {
     "robots": add_robots,
     "scenes": add_nothing,
     "skills": add_skills,
+    "teach": add_teach,
+    "explain": add_explain,
     "bench": add_bench,
     "reproduce": add_reproduce,
     "doctor": add_nothing,

@@ -30,6 +30,8 @@ PUSH_LASTS = 0.1
 
 def run(args: Namespace) -> int:
     trips.check_outputs(args)
+    if args.driver == "hybrid":
+        raise WrongUse("driver hybrid chooses skills by rules; one skill that is held needs none")
     robot = trips.find_robot(args.robot)
     skill = find_skill(args.skill, robot)
     scene = trips.find_scene(args.scene, args.seed, robot)

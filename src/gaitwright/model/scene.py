@@ -11,8 +11,8 @@ from gaitwright.model import layouts, scene_file, scenes_list
 from gaitwright.model.robot import Robot
 from gaitwright.model.terrain import Box, Number, Surface
 
-STEP = 0.4
-"""Highest box that is stepped on, as a share of `Robot.height`: feet know the ground ahead."""
+BLIND_STEP, SEEN_STEP = 0.2, 0.36
+"""Highest box stepped on blind, and by feet that know the ground ahead, as shares of `Robot.height`."""
 
 BATCH = 1_000_000
 """Most pairs of place and box looked at in one go: keeps memory small."""
@@ -51,7 +51,7 @@ class Scene:
         """Height of the top of one of the boxes [m]."""
         return float(self.surface.height(box.x, box.y)) + box.base + box.height
 
-    def obstacles(self, robot: Robot, step: float = STEP) -> tuple[Box, ...]:
+    def obstacles(self, robot: Robot, step: float = BLIND_STEP) -> tuple[Box, ...]:
         """The boxes that are too high for the robot to step on: higher than `step` times its height."""
         return tuple(box for box in self.boxes if box.height > step * robot.height)
 

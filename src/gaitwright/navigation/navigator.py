@@ -3,9 +3,11 @@
 import math
 from dataclasses import dataclass, replace
 
+from gaitwright.geometry import heading, rotation
 from gaitwright.model.robot import Robot
-from gaitwright.model.scene import Scene
+from gaitwright.model.scene import BLIND_STEP, SEEN_STEP, Scene
 from gaitwright.navigation.obstacles import PlanView, plan_view
+from gaitwright.navigation.scanner import Scanner
 from gaitwright.navigation.visibility import Point, length, shortest_path, visible
 from gaitwright.signals import Mission, Route, Sensed
 
@@ -15,18 +17,25 @@ STOP_AT = 0.06
 """The robot begins to stop within this many body lengths, so that it stands within `ARRIVED`."""
 PASSED = 0.5
 """A way-point or a corner counts as passed within this many body lengths."""
+CELL = 0.5
+"""Size of the cells in which a trip remembers where it has been, in body lengths."""
+LOOKS_ON = 2
+"""Familiar ground is looked for this many cells ahead."""
 
 
 @dataclass(frozen=True)
 class Navigator:
-    """Plans among the obstacles of a known scene."""
+    """Plans among the obstacles of a known scene, and tells of the ground ahead."""
 
     robot: Robot
     view: PlanView
+    scanner: Scanner | None = None
 
     @classmethod
-    def of(cls, robot: Robot, scene: Scene) -> "Navigator":
-        return cls(robot, plan_view(scene, robot))
+    def of(cls, robot: Robot, scene: Scene, sees: bool = True) -> "Navigator":
+        """`sees`: whether the ground is known, so that it is scanned and higher steps are climbed."""
+        step = SEEN_STEP if sees else BLIND_STEP
+        return cls(robot, plan_view(scene, robot, step), Scanner(robot, scene, step) if sees else None)
 
     def set_out(self, mission: Mission, sensed: Sensed) -> Route:
         """The route of a new mission; `no_way` says so where there is none."""
@@ -41,7 +50,8 @@ class Navigator:
                 where = "on" if self.view.blocked(point) else "to"
                 return self.nowhere(mission, f"{where} ({point[0]:g}, {point[1]:g}) {reason}")
             path.extend(leg)
-        return Route(tuple(path), length(here, tuple(path)), mission.speed, mission.driver)
+        route = Route(tuple(path), length(here, tuple(path)), mission.speed, mission.driver)
+        return self.looked(route, sensed)
 
     def plan(self, route: Route, sensed: Sensed) -> Route:
         """What is left of `route` from where the robot is now."""
@@ -54,7 +64,23 @@ class Navigator:
         left = length(here, path)
         near = ARRIVED if route.arrived else STOP_AT
         arrived = len(path) == 1 and left < near * unit
-        return replace(route, path=path, remaining=left, arrived=arrived)
+        return self.looked(replace(route, path=path, remaining=left, arrived=arrived), sensed)
+
+    def looked(self, route: Route, sensed: Sensed) -> Route:
+        """The route with what is seen of the ground ahead, and with this place remembered."""
+        if self.scanner is None:
+            return route
+        here, yaw = place(sensed), heading(rotation(sensed.orientation_wb))
+        on = LOOKS_ON * CELL * self.robot.body_length
+        ahead = self.cell((here[0] + on * math.cos(yaw), here[1] + on * math.sin(yaw)))
+        scan = self.scanner.look(here, yaw, ahead in route.travelled)
+        cell, travelled = self.cell(here), route.travelled
+        return replace(route, ahead=scan, travelled=travelled if cell in travelled else travelled | {cell})
+
+    def cell(self, point: Point) -> tuple[int, int]:
+        """The cell of the grid that holds a point."""
+        size = CELL * self.robot.body_length
+        return math.floor(point[0] / size), math.floor(point[1] / size)
 
     def has_passed(self, here: Point, point: Point, onwards: Point) -> bool:
         """Whether the robot may leave a point of its path behind: near it, and free to go on."""

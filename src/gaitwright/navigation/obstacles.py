@@ -6,7 +6,7 @@ import shapely
 from shapely import Polygon
 
 from gaitwright.model.robot import Robot
-from gaitwright.model.scene import Scene
+from gaitwright.model.scene import BLIND_STEP, Scene
 
 CLEARANCE = 0.15
 """Room beside the robot's feet, in body lengths."""
@@ -51,12 +51,12 @@ def half_width(robot: Robot) -> float:
     return float(abs(robot.stance[:, 1]).max()) + CLEARANCE * robot.body_length
 
 
-def plan_view(scene: Scene, robot: Robot) -> PlanView:
-    """The scene as the planner sees it."""
+def plan_view(scene: Scene, robot: Robot, step: float = BLIND_STEP) -> PlanView:
+    """The scene as the planner sees it; `step` is what the robot steps on, in body heights."""
     margin = half_width(robot)
     grown = (
         Polygon(box.corners()).buffer(margin, join_style="mitre", mitre_limit=1.5)
-        for box in scene.obstacles(robot)
+        for box in scene.obstacles(robot, step)
     )
     merged = shapely.union_all(list(grown))
     parts = getattr(merged, "geoms", [merged])

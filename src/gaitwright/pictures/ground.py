@@ -13,7 +13,7 @@ from matplotlib.patches import Patch, Polygon, Rectangle
 from gaitwright.figures import heading_over_time, stretches, touchdowns
 from gaitwright.geometry import rotation
 from gaitwright.model.kinematics import feet
-from gaitwright.model.scene import Scene
+from gaitwright.model.scene import SEEN_STEP, Scene
 from gaitwright.pictures.style import EARTH, INK, MAP, SKILLS, dress
 from gaitwright.recording import Recording
 
@@ -46,7 +46,7 @@ def draw_map(ax: Axes, r: Recording, scene: Scene) -> None:
     ]
     if scene.boxes:
         handles.append(Patch(facecolor="#d9c9a8", edgecolor="#a8946c", label="low: stepped on"))
-    if scene.obstacles(r.robot):
+    if scene.obstacles(r.robot, SEEN_STEP):
         handles.append(Patch(facecolor="#c9ced6", edgecolor=INK, hatch="////", label="high: walked around"))
     ax.legend(
         handles=handles, loc="upper left", ncols=len(handles), frameon=True, framealpha=0.92, edgecolor="none"
@@ -79,7 +79,7 @@ def draw_ground(ax: Axes, r: Recording, scene: Scene, bounds: tuple[float, float
         bar.ax.set_title("z [m]", fontsize=9, color=INK)
         bar.ax.tick_params(labelsize=9, colors=INK, length=2)
         bar.outline.set_visible(False)
-    obstacles = set(scene.obstacles(r.robot))
+    obstacles = set(scene.obstacles(r.robot, SEEN_STEP))
     tallest = max((scene.top(box) for box in scene.boxes if box not in obstacles), default=1.0)
     for box in scene.boxes:
         if box in obstacles:

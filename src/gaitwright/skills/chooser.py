@@ -3,11 +3,10 @@
 import math
 from dataclasses import dataclass
 
-from gaitwright.geometry import heading, rotation, wrap
 from gaitwright.model.robot import Robot
 from gaitwright.signals import Route, Sensed, SkillCall
+from gaitwright.skills.following import braked, heading_error, turn_rate, wished_speed
 from gaitwright.skills.library import (
-    LIBRARY,
     Skill,
     check_speed,
     fastest,
@@ -22,12 +21,6 @@ TURN_FIRST = math.radians(40)
 """Farther off the path than this, the robot turns on the spot before it goes on."""
 KEEP_TURNING = math.radians(15)
 """A turn on the spot goes on until the path is this near."""
-CREEP = 0.1
-"""Slowest approach [m/s], at h = 0.29 m."""
-TURN_GAIN = 2.0
-"""Yaw rate per heading error [1/s]."""
-BRAKING = 0.6
-"""Speed allowed per metre that is left [1/s], at h = 0.29 m."""
 
 
 @dataclass(frozen=True)
@@ -40,20 +33,16 @@ class PlainChooser:
         """The skill for what lies ahead; `now` is the one in use."""
         if route.arrived or not route.path:
             return self.call("stand", route, because=route.no_way or "at the goal")
-        yaw = heading(rotation(sensed.orientation_wb))
-        dx = route.path[0][0] - float(sensed.position_w[0])
-        dy = route.path[0][1] - float(sensed.position_w[1])
-        error = float(wrap(math.atan2(dy, dx) - yaw))
-        turn = self.turn_rate(error)
+        error = heading_error(route, sensed)
+        turn = turn_rate(self.robot, error)
         turning = now is not None and now.skill == "turn-in-place"
         if abs(error) > (KEEP_TURNING if turning else TURN_FIRST):
             return self.call(
                 "turn-in-place", route, turn=turn, because=f"the path is {math.degrees(error):.0f}° off"
             )
-        scale = speed_scale(self.robot)
-        wished = route.speed if route.speed is not None else LIBRARY["trot"].speed * scale
+        wished = wished_speed(self.robot, route)
         self.gait_for(wished)
-        slowed = min(wished, max(CREEP * scale, BRAKING / scale * route.remaining))
+        slowed = braked(self.robot, route)
         skill = self.gait_for(slowed)
         because = f"{route.remaining:.1f} m to go" + (", slowing down" if slowed < wished else "")
         return self.call(skill.name, route, forward=slowed * math.cos(error), turn=turn, because=because)
@@ -72,11 +61,6 @@ class PlainChooser:
                 return skill
         check_speed(faster[-1], self.robot, speed)
         return faster[-1]
-
-    def turn_rate(self, error: float) -> float:
-        """Yaw rate [rad/s] that takes away a heading error [rad], within what the feet can step."""
-        most = 0.8 / speed_scale(self.robot)
-        return max(-most, min(most, TURN_GAIN / speed_scale(self.robot) * error))
 
     def call(
         self, name: str, route: Route, forward: float = 0.0, turn: float = 0.0, because: str = ""

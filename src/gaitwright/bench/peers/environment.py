@@ -73,6 +73,16 @@ _TSID_1_7 = (
     "tsid==1.7.1",
 )
 _PLACO = (*_LATE, "libpinocchio==3.8.0", "pin==3.8.0", "placo==0.10.2", "rhoban-cmeel-jsoncpp==1.9.4.9")
+_CLIPS = ("cffi==2.1.1", "clipspy==1.0.6", "pycparser==3.12")
+_SKLEARN = (
+    "cloudpickle==3.1.2",
+    "joblib==1.6.0",
+    "narwhals==2.29.0",
+    "numpy==2.3.5",
+    "scikit-learn==1.9.1",
+    "scipy==1.17.1",
+    "threadpoolctl==3.8.0",
+)
 _IMPORT_TSID = "import pinocchio; from tsid import tsid_pywrap"
 _IMPORT_PLACO = "import pinocchio, placo"
 
@@ -83,6 +93,11 @@ RECIPES = {
         Recipe("3.11", _TSID_1_7, _IMPORT_TSID),
     ),
     "placo": tuple(Recipe(python, _PLACO, _IMPORT_PLACO) for python in ("3.13", "3.12", "3.11")),
+    "clips": tuple(Recipe(python, _CLIPS, "import clips") for python in ("3.13", "3.12", "3.11")),
+    "sklearn": tuple(
+        Recipe(python, _SKLEARN, "import sklearn.tree, sklearn.neighbors")
+        for python in ("3.13", "3.12", "3.11")
+    ),
 }
 """Peer → recipes, the preferred first: the first whose Python is on this machine is made."""
 

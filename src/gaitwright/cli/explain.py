@@ -1,0 +1,208 @@
+"""`gaitwright explain`: what a rulebook knows, why a rule fires or not, and what moved its marks."""
+
+import json
+import re
+import textwrap
+from argparse import Namespace
+from dataclasses import asdict
+from importlib import import_module
+from pathlib import Path
+
+from gaitwright.cli.asked_situation import Asked, asked, said, whatever
+from gaitwright.cli.books import rulebook_of
+from gaitwright.cli.console import console, remark, show_pairs, show_table, working
+from gaitwright.cli.explaining import (
+    because,
+    changes,
+    facts_of,
+    movers,
+    opening,
+    others,
+    reasons_against,
+    sentence_of,
+    title,
+    told_history,
+    verdict,
+)
+from gaitwright.cli.output import check_json, write_json
+from gaitwright.errors import WrongUse
+from gaitwright.knowledge.consult import Decision, consult
+from gaitwright.knowledge.explain import forest_text
+from gaitwright.knowledge.memory import Memory, remembered
+from gaitwright.knowledge.rules import Rulebook, status
+
+RULES = ("", "rule", "status", "right", "wrong", "it …")
+MARKS = ("tree", "here", "▲ upper mark", "moved there by", "▼ lower mark", "moved there by")
+WIDE = 100
+"""Letters of a line of prose."""
+
+
+def run(args: Namespace) -> int:
+    check_json(args.json)
+    if args.out is not None:
+        import_module("gaitwright.cli.skills").check_picture(args.out)
+    if args.at is not None and not args.recording:
+        raise WrongUse("--at is a moment of a recording: name its file with --recording")
+    book = rulebook_of(args.book)
+    name = args.rule or args.why_not or args.history or ""
+    if name:
+        book[name]
+    figures: dict = {
+        "book": args.book,
+        "lessons": book.lessons,
+        "trees": {tree.name: tree.leaves for tree in book.forest.trees},
+        "rules": [facts_of(book, rule) for rule in book.rules],
+    }
+    aside, decision = args.json == "-", None
+    if args.situation or args.recording or args.why_not:
+        at = situation_asked(book, args, figures)
+        decision = consult(book, at.situation)
+        tell_decision(book, at, decision, args.rule or args.why_not or "", figures, aside)
+    elif args.rule:
+        tell_rule(book, name, aside)
+    elif not args.history:
+        tell_book(book, args.book, aside)
+    if args.history:
+        tell_history(book, name, figures, aside)
+    if args.plot or args.out is not None:
+        picture(args, book, name, decision, figures)
+    write_json(args.json, json.dumps(figures, indent=2, ensure_ascii=False))
+    return 0
+
+
+def prose(text: str, indent: str = "") -> None:
+    """A paragraph on the standard output."""
+    screen = console()
+    lines = textwrap.wrap(text, min(WIDE, screen.width), initial_indent=indent, subsequent_indent=2 * indent)
+    screen.print("\n".join(lines), markup=False)
+
+
+# --- what the book knows ---------------------------------------------------------------------------
+def tell_book(book: Rulebook, path: str, aside: bool) -> None:
+    """All rules in their order."""
+    if aside:
+        return
+    prose(opening(book, Path(path).name))
+    rows = [
+        (str(k), rule.name, status(rule), str(len(rule.positives)), str(len(rule.negatives)),
+         sentence_of(book, rule))
+        for k, rule in enumerate(book.rules, start=1)
+    ]  # fmt: skip
+    if rows:
+        show_table(RULES, rows, right=("", "right", "wrong"))
+
+
+def tell_rule(book: Rulebook, name: str, aside: bool) -> None:
+    """One rule with its trees."""
+    if aside:
+        return
+    rule = book[name]
+    prose(f"{title(rule)}: {sentence_of(book, rule)}.")
+    prose("▲ outside this value it may not fire; ▼ below this value it was seen right. + yes, ? grey, − no.")
+    console().print(f"\n{forest_text(book, name)}", markup=False)
+
+
+def tell_history(book: Rulebook, name: str, figures: dict, aside: bool) -> None:
+    """Every lesson that moved a rule, the oldest first."""
+    events = figures["history"] = told_history(book, name)
+    if aside:
+        return
+    prose(f"{title(book[name])}:")
+    for event in events:
+        prose(f"{event}.", "  ")
+
+
+# --- what it decides -------------------------------------------------------------------------------
+def situation_asked(book: Rulebook, args: Namespace, figures: dict) -> Asked:
+    """The situation from the options; the moment it was recorded at goes to the figures."""
+    facts: Memory = remembered({})
+    if args.recording:
+        moment = import_module("gaitwright.cli.recorded_moment")  # only now: it knows MuJoCo
+        figures["at_s"], facts = moment.recorded_facts(args.recording, args.at)
+    at = asked(book, said(args.situation or (), book.forest), facts)
+    if args.recording and not any((tree.source or tree.name) in facts for tree in book.forest.trees):
+        raise WrongUse(
+            f"{args.recording} tells {', '.join(facts)}, and of these no tree reads one; "
+            f"the trees are {', '.join(book.forest.names)}"
+        )
+    return at
+
+
+def tell_decision(
+    book: Rulebook, at: Asked, decision: Decision, name: str, figures: dict, aside: bool
+) -> None:
+    """Why, why not, what would have to be different, and which lessons are behind it."""
+    names = others(book, decision, "" if name == decision.rule else name)
+    against, different = reasons_against(book, decision, names), changes(book, at.situation, names)
+    marks = [] if decision.rule is None else list(movers(book, book[decision.rule], at.situation))
+    left_open = whatever(book, at) if at.open else ""
+    figures |= {
+        "situation": dict(at.situation.items()),
+        "taken_from": dict(zip(at.situation.trees, at.sources, strict=True)),
+        "left_open": left_open,
+        "decision": {"rule": decision.rule, "certainty": decision.certainty, "grey": decision.grey},
+        "could_fire": decision.conflict,
+        "because": because(book, decision),
+        "why_not": dict(against),
+        "counterfactuals": [counterfactual_figures(change) for _, change in different],
+        "marks": [dict(zip(MARKS_KEYS, row, strict=True)) for row in marks],
+    }
+    if aside:
+        return
+    tell_situation(at)
+    prose(f"{verdict(decision)} {left_open}")
+    section("why", [figures["because"]])
+    section("why not another", [sentence for _, sentence in against])
+    section(
+        "what would have to be different (each change was tried)",
+        [f"{change.sentence}." for _, change in different],
+    )
+    if marks:
+        console().print(f"\nmarks of {decision.rule}", style="bold", markup=False)
+        show_table(MARKS, marks)
+
+
+MARKS_KEYS = ("tree", "here", "upper", "upper_moved_by", "lower", "lower_moved_by")
+
+
+def counterfactual_figures(change) -> dict:
+    """A change as figures; `tried` is what consulting the book decides after it."""
+    return {
+        "sentence": change.sentence,
+        "changes": [asdict(part) for part in change.changes],
+        "tried": change.decision and change.decision.rule,
+    }
+
+
+def tell_situation(at: Asked) -> None:
+    """The situation, and where what was not said comes from."""
+    pairs = [
+        (tree, str(value) if source == "said" else f"{value}   ({source})")
+        for (tree, value), source in zip(at.situation.items(), at.sources, strict=True)
+    ]
+    show_pairs("the situation", pairs, to_stderr=False)
+    console().print()
+
+
+def section(head: str, sentences: list[str]) -> None:
+    """A bold head and its sentences."""
+    if sentences:
+        console().print(f"\n{head}", style="bold", markup=False)
+        for sentence in sentences:
+            prose(sentence, "  ")
+
+
+# --- the picture -----------------------------------------------------------------------------------
+def picture(args: Namespace, book: Rulebook, name: str, decision: Decision | None, figures: dict) -> None:
+    """Draws the forest, and the trees of the rule that was asked for or fires; says where."""
+    if not import_module("gaitwright.cli.trips").has("matplotlib", "the picture", "plot"):
+        return
+    stem = re.sub(r"[^A-Za-z0-9_-]+", "-", Path(args.book).stem)
+    path = Path(args.out or f"runs/explain-{stem}.png")
+    with working("drawing the trees", worth_a_line=False):
+        from gaitwright.pictures.forest import forest_picture  # noqa: PLC0415 - an extra
+
+        rule = name or (decision.rule if decision else "") or ""
+        forest_picture(book, path, rule, decision)
+    figures["picture"] = str(path)
+    remark(f"picture: {path}")

@@ -1,0 +1,104 @@
+"""`gaitwright teach`: a scripted teacher makes a skillbook for a robot."""
+
+import json
+from argparse import Namespace
+from dataclasses import asdict
+from pathlib import Path
+from time import perf_counter
+
+from gaitwright.cli.console import remark, show_pairs, working
+from gaitwright.cli.output import check_json, write_json
+from gaitwright.cli.trips import find_robot
+from gaitwright.errors import WrongUse
+from gaitwright.knowledge.rules import Rulebook, status
+from gaitwright.learning.apprentice import Studied
+from gaitwright.learning.exam import held_out, right_share
+from gaitwright.learning.school import Schooled, attend
+from gaitwright.learning.teacher import ScriptedTeacher
+from gaitwright.model.robot import Robot
+from gaitwright.skillbook.book import Skillbook
+from gaitwright.skillbook.ledger import Ledger, open_for_learning
+from gaitwright.skills.situation import FOREST
+
+EXAM = 200
+"""Situations that the rules are asked about at the end."""
+EVERY = 10.0
+"""Progress is told this often [s]."""
+
+
+def run(args: Namespace) -> int:
+    check_json(args.json)
+    robot, path = find_robot(args.robot), Path(args.out)
+    if path.exists():
+        raise WrongUse(f"{path} exists: name a new skillbook, or remove that one")
+    if not path.parent.is_dir():
+        raise WrongUse(f"there is no folder {path.parent} for {path.name}")
+    Skillbook.new(Rulebook(FOREST), robot=robot.name, name=path.stem, seed=args.seed).save(path)
+    began = perf_counter()
+    try:
+        with open_for_learning(path) as ledger:
+            schooled = taught(robot, ledger, args)
+    except KeyboardInterrupt:
+        remark(f"gaitwright: interrupted; what was learned so far is in {path}")
+        return 130
+    with working("the exam", worth_a_line=False):
+        right = right_share(
+            schooled.book, ScriptedTeacher(), held_out(robot, ScriptedTeacher(), args.seed, EXAM)
+        )
+    tell(schooled, right, perf_counter() - began, path, args)
+    return 0
+
+
+def taught(robot: Robot, ledger: Ledger, args: Namespace) -> Schooled:
+    """The school, with progress, every step in the ledger."""
+    spoke = -EVERY
+    began = perf_counter()
+
+    def progress(what: str, done: int, of: int) -> None:
+        nonlocal spoke
+        now = perf_counter() - began
+        if now - spoke >= EVERY or done == of:
+            spoke = now
+            remark(f"{what}: {done} of {of} ({now:.0f} s)")
+
+    return attend(
+        robot,
+        seed=args.seed,
+        trips_watched=args.trips,
+        progress=progress,
+        keep=lambda studied: keep(ledger, studied),
+    )
+
+
+def keep(ledger: Ledger, studied: Studied) -> None:
+    """Puts every step away, each durable before the next."""
+    for step in studied.steps:
+        if step.how == "edited":
+            ledger.edit(step.result.book, "a new feature, named by the teacher")
+        else:
+            ledger.record(step.lesson, step.result, step.how)
+
+
+def tell(schooled: Schooled, right: float, seconds: float, path: Path, args: Namespace) -> None:
+    """What came of it."""
+    report, rules = schooled.report, schooled.book.rules
+    states = ", ".join(f"{rule.name} {status(rule)}" for rule in rules)
+    numbers = {
+        "book": str(path),
+        "rules": [rule.name for rule in rules],
+        "right_on_held_out": right,
+        "seconds": seconds,
+        **asdict(report),
+    }
+    write_json(args.json, json.dumps(numbers, indent=2, ensure_ascii=False))
+    rows = [
+        ("rules", states),
+        ("demonstrations", ", ".join(f"{name} {n}" for name, n in report.demonstrations.items())),
+        ("trips watched", f"{report.trips}, interventions {sum(report.interventions)}"),
+        ("lessons", str(report.lessons)),
+        ("firm trees", f"{report.firm:.0%}"),
+        ("right on new situations", f"{right:.1%} of {EXAM}"),
+        ("took", f"{seconds:.0f} s"),
+        ("next", f"gaitwright explain {path}"),
+    ]
+    show_pairs(f"{path} holds what was learned", rows, to_stderr=args.json == "-")

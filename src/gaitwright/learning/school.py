@@ -1,0 +1,179 @@
+"""The school: a teacher demonstrates, then lets the rules decide and steps in at the first wrong choice.
+
+Everything here runs on kinematic trips (`learning.kinematic`), so that a whole school takes seconds; what was
+learned then drives real ones.
+"""
+
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+import numpy as np
+
+from gaitwright.knowledge.rules import Rulebook
+from gaitwright.learning.apprentice import Studied, confirmed, corrected, held, outranked, step_of, study
+from gaitwright.learning.courses import course
+from gaitwright.learning.critic import Moment
+from gaitwright.learning.exam import firm_share, is_right
+from gaitwright.learning.kinematic import moments_of
+from gaitwright.learning.teacher import ScriptedTeacher, Teacher
+from gaitwright.learning.trips import SCHOOL, teacher_drives, trips
+from gaitwright.model.robot import Robot
+from gaitwright.skills.situation import FOREST
+
+KINDS_OF_RULES = 13
+"""So many rules are looked for before there are demonstrations enough."""
+AT_FIRST = 2
+"""Demonstrations of each skill before the rules may try."""
+
+
+@dataclass(frozen=True, slots=True)
+class Demonstration:
+    """A stretch of a teacher's trip in which she uses one skill."""
+
+    rule: str
+    moments: tuple[Moment, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class SchoolReport:
+    """What came of a school."""
+
+    demonstrations: dict[str, int]
+    """How many of each skill."""
+    shown: int
+    """Moments in them."""
+    trips: int
+    """Trips that the rules drove with the teacher watching."""
+    interventions: tuple[int, ...]
+    """How often she stepped in, trip by trip."""
+    lessons: int
+    open: int
+    """Contradictions that nobody could mend."""
+    firm: float
+    """Share of the trees in which the two marks of a rule meet."""
+
+
+@dataclass(frozen=True, slots=True)
+class Schooled:
+    """A rulebook and how it came to be."""
+
+    book: Rulebook
+    report: SchoolReport
+
+
+def demonstrations(
+    robot: Robot, teacher: Teacher, seed: int, per_skill: int = 5, longest: int = 4
+) -> tuple[Demonstration, ...]:
+    """Stretches of the teacher's trips, up to `per_skill` of each skill and from as many trips, at most
+    `longest` moments each, evenly taken."""
+    found: dict[str, list[Demonstration]] = {}
+    for trip in trips(robot, teacher, SCHOOL * 1000 + seed):
+        shown_here = set()
+        for rule, stretch in groupby(trip, key=lambda moment: teacher.ideal(moment.raw).rule):
+            moments = tuple(stretch)
+            enough = found.setdefault(rule, [])
+            if len(enough) < per_skill and rule not in shown_here:
+                shown_here.add(rule)
+                enough.append(Demonstration(rule, spread(moments, longest)))
+        if (
+            found
+            and all(len(enough) >= per_skill for enough in found.values())
+            and len(found) >= KINDS_OF_RULES
+        ):
+            break
+    return tuple(shown for row in found.values() for shown in row)
+
+
+def spread(moments: Sequence[Moment], most: int) -> tuple[Moment, ...]:
+    """At most so many of them, from the first on, evenly."""
+    places = np.unique(np.linspace(0, len(moments) - 1, most).round().astype(int))
+    return tuple(moments[int(k)] for k in places)
+
+
+def demonstrate(book: Rulebook, teacher: Teacher, shown: Sequence[Demonstration], passes: int = 3) -> Studied:
+    """The rulebook after demonstrations: one of each skill in turn, then the next of each."""
+    order: dict[str, int] = {}
+    turns = []
+    for one in shown:
+        order[one.rule] = order.get(one.rule, -1) + 1
+        turns.append((order[one.rule], one))
+    moments = [moment for _, one in sorted(turns, key=lambda turn: turn[0]) for moment in one.moments]
+    return study(book, teacher, moments, passes)
+
+
+def correct(book: Rulebook, teacher: Teacher, moment: Moment) -> Studied:
+    """The rulebook after the teacher looked at one moment: confirmed, or corrected once."""
+    step, shown = step_of(book, moment), teacher.ideal(moment.raw)
+    correction = teacher.judge(step.action, moment.raw)
+    if correction is not None:
+        return corrected(book, moment, correction)
+    if not shown.clear or step.action != shown.action or held(step):
+        return Studied(book)
+    studied = confirmed(book, step)
+    return studied.then(outranked(studied.book, teacher, moment))
+
+
+def attend(  # noqa: PLR0913 - a whole school; every setting has its default
+    robot: Robot,
+    teacher: Teacher | None = None,
+    seed: int = 0,
+    per_skill: int = 5,
+    trips_watched: int = 40,
+    progress: Callable[[str, int, int], None] | None = None,
+    keep: Callable[[Studied], None] | None = None,
+) -> Schooled:
+    """The whole school: demonstrations first, then trips that the rules decide and the teacher watches.
+
+    She shows each skill at most `per_skill` times: some of these at first, the others where the rules go
+    wrong. `progress` is told what is going on, how much of it is done, and how much there is; `keep` gets
+    what was learned since it was last called, to put it away before anything else is learned.
+    """
+    teacher = teacher or ScriptedTeacher()
+    tell = progress or (lambda what, done, of: None)
+    shown = demonstrations(robot, teacher, seed, min(AT_FIRST, per_skill))
+    tell("demonstrations", 0, len(shown))
+    studied = demonstrate(Rulebook(FOREST), teacher, shown)
+    tell("demonstrations", len(shown), len(shown))
+    keep = keep or (lambda _: None)
+    keep(studied)
+    times = Counter(one.rule for one in shown)
+    interventions = []
+    for k in range(trips_watched):
+        number = (SCHOOL * 1000 + seed) * 1_000_000 + 500_000 + k
+        watched = watch(studied.book, robot, teacher, number, times, per_skill)
+        interventions.append(watched.corrections)
+        studied = studied.then(watched)
+        keep(watched)
+        tell("trips by rules", k + 1, trips_watched)
+    report = SchoolReport(
+        dict(times),
+        sum(len(one.moments) for one in shown),
+        trips_watched,
+        tuple(interventions),
+        studied.lessons,
+        len(studied.open),
+        firm_share(studied.book),
+    )
+    return Schooled(studied.book, report)
+
+
+def watch(
+    book: Rulebook, robot: Robot, teacher: Teacher, number: int, times: Counter[str], per_skill: int
+) -> Studied:
+    """One trip: at each moment the rules choose; what is right is confirmed, what is wrong corrected once.
+
+    The teacher takes over at a wrong choice, so the trip goes on as she would have it. `times` counts how
+    often she showed each skill; beyond `per_skill` she lets a mistake pass.
+    """
+    rng = np.random.default_rng([number, 7])
+    studied = Studied(book)
+    for moment in moments_of(course(robot, number), teacher_drives(robot, teacher), rng):
+        rule = teacher.ideal(moment.raw).rule
+        if times[rule] >= per_skill and not is_right(studied.book, teacher, moment):
+            continue
+        taught = correct(studied.book, teacher, moment)
+        times[rule] += taught.corrections
+        studied = studied.then(taught)
+    return studied

@@ -1,0 +1,40 @@
+"""Trips that a teacher drives over courses drawn from a seed, without physics."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from gaitwright.knowledge.memory import remembered
+from gaitwright.learning.courses import course
+from gaitwright.learning.critic import Moment
+from gaitwright.learning.kinematic import Driver, moments_of
+from gaitwright.learning.teacher import Teacher
+from gaitwright.model.robot import Robot
+from gaitwright.signals import Route, Sensed, SkillCall
+from gaitwright.skills.rule_chooser import DOING, carried_out
+from gaitwright.skills.situation import measured
+
+SCHOOL, EXAM = 1, 2
+"""What a seed is put behind to number courses, so that no exam was a lesson."""
+MOST_COURSES = 400
+"""Courses gone through at most."""
+
+
+def teacher_drives(robot: Robot, teacher: Teacher) -> Driver:
+    """A driver who does what the teacher would."""
+
+    def drive(route: Route, sensed: Sensed, now: SkillCall | None) -> SkillCall:
+        shown = teacher.ideal(measured(robot, route, sensed, now))
+        call = carried_out(robot, shown.action, route, sensed)
+        return replace(call, memory=remembered({DOING: shown.rule}))
+
+    return drive
+
+
+def trips(robot: Robot, teacher: Teacher, seed: int, kind: str = "") -> Iterator[list[Moment]]:
+    """Trips that the teacher drives, on and on."""
+    for k in range(MOST_COURSES):
+        number = seed * 1_000_000 + k
+        rng = np.random.default_rng([number, 7])
+        yield moments_of(course(robot, number, kind), teacher_drives(robot, teacher), rng)

@@ -1,0 +1,115 @@
+"""The skillbook as one frozen value, with its doors: a file, and text."""
+
+from dataclasses import dataclass, replace
+from hashlib import sha256
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+from gaitwright.knowledge.forest import Forest
+from gaitwright.knowledge.rules import Rulebook
+from gaitwright.skillbook import store, text
+from gaitwright.skillbook.entries import (
+    About,
+    File,
+    ancestor_entry,
+    ancestors_of,
+    checked,
+    rulebook_entry,
+    rulebook_of,
+    step_entry,
+    steps_of,
+)
+from gaitwright.skillbook.history import Ancestor, Step, replayed
+
+
+@dataclass(frozen=True)
+class Skillbook:
+    """What a robot was taught (`steps`), what came of it (`rulebook`), and the books it came from.
+
+    `robot` names the one it was taught on, `made_by` the version of Gaitwright that began it.
+    """
+
+    name: str
+    robot: str
+    rulebook: Rulebook
+    steps: tuple[Step, ...]
+    made_by: str
+    seed: int = 0
+    ancestors: tuple[Ancestor, ...] = ()
+
+    @staticmethod
+    def new(start: Forest | Rulebook, robot: str = "", name: str = "", seed: int = 0) -> "Skillbook":
+        """A book that begins with a rulebook, or with none but the features to come."""
+        rulebook = start if isinstance(start, Rulebook) else Rulebook(start)
+        return Skillbook(name, robot, rulebook, (_begun(rulebook, "as it began"),), _this_version(), seed)
+
+    @staticmethod
+    def load(path: str | Path) -> "Skillbook":
+        """The book in a file. Raises `BadFile` with one sentence where it is not one, or a damaged one."""
+        return book_of(store.read(path), str(path))
+
+    def save(self, path: str | Path) -> Path:
+        """Writes the book to a file, whole or not at all. Raises `BadFile` while that one is being taught,
+        and `WrongUse` for a book that no file can hold."""
+        return store.write(entry_of(self), path)
+
+    def forked(self, name: str) -> "Skillbook":
+        """A book of another name that goes on from here and remembers this one."""
+        ancestor = Ancestor("forked", self.name, content_hash(self))
+        return replace(self, name=name, ancestors=(*self.ancestors, ancestor))
+
+    def replayed(self) -> Rulebook:
+        """The rulebook made anew from every step: `rulebook`, unless this code learns otherwise than the one
+        that taught it."""
+        return replayed(self.steps)
+
+
+def content_hash(book: Skillbook) -> str:
+    """SHA-256 of everything in the book, as text."""
+    return sha256(export_text(book).encode()).hexdigest()
+
+
+def export_text(book: Skillbook) -> str:
+    """The book as lines of text: the same book, the same text; one thing a line, in the book's own order."""
+    return text.write(entry_of(book))
+
+
+def import_text(content: str, source: str = "skillbook text") -> Skillbook:
+    """The book from what `export_text` gave. Raises `BadFile` with one sentence, `source` in front."""
+    return book_of(text.read(content, source), source)
+
+
+def entry_of(book: Skillbook) -> File:
+    """The book, checked against the limits of a file. Raises `WrongUse`."""
+    rulebook = rulebook_entry(book.rulebook)
+    steps = tuple(step_entry(step) for step in book.steps)
+    return File(about_of(book), rulebook, steps, tuple(ancestor_entry(a) for a in book.ancestors))
+
+
+def about_of(book: Skillbook) -> About:
+    """What the book is called, and how much there is of everything."""
+    rules = book.rulebook
+    counts = (len(book.steps), len(rules.rules), len(rules.preferences), len(rules.forest.trees))
+    own = (book.name, book.robot, book.made_by, book.seed, rules.lessons)
+    return checked(About(*own, *counts, len(book.ancestors)), About)
+
+
+def book_of(entry: File, source: str) -> Skillbook:
+    """The book of an entry. Raises `BadFile`."""
+    rulebook = rulebook_of(entry.rulebook, source)
+    steps = steps_of(entry.steps, rulebook.events, source)
+    about = entry.about
+    return Skillbook(
+        about.name, about.robot, rulebook, steps, about.made_by, about.seed, ancestors_of(entry.ancestors)
+    )
+
+
+def _begun(rulebook: Rulebook, note: str) -> Step:
+    return Step("begun", None, replace(rulebook, events=()), note, rulebook.events)
+
+
+def _this_version() -> str:
+    try:
+        return version("gaitwright")
+    except PackageNotFoundError:  # run from a folder that was never installed
+        return ""

@@ -1,0 +1,194 @@
+"""Everything in a book as strict plain entries: what a file holds, whatever its form, is checked here."""
+
+from typing import Annotated, Any, Literal, TypeVar
+
+import msgspec
+from msgspec import Meta
+
+from gaitwright.errors import BadFile, WrongUse
+from gaitwright.knowledge.forest import MAX_TREES, Situation
+from gaitwright.knowledge.learn import Lesson
+from gaitwright.knowledge.memory import Action
+from gaitwright.knowledge.plain import (
+    ActionEntry,
+    BookEntry,
+    EventEntry,
+    Facts,
+    InstanceEntry,
+    Label,
+    Leaves,
+    Strict,
+    Text,
+    from_plain,
+    to_plain,
+)
+from gaitwright.knowledge.rules import Event, Rulebook
+from gaitwright.skillbook.history import Ancestor, How, Step
+
+T = TypeVar("T")
+Place = Annotated[int, Meta(ge=0)]
+Whole = Annotated[int, Meta(ge=-(1 << 62), le=1 << 62)]
+
+
+class About(Strict, frozen=True):
+    """The book itself; the counts tell when rows are missing."""
+
+    name: Label
+    robot: Label
+    made_by: Label
+    seed: Whole
+    lessons: Place
+    steps: Place = 0
+    rules: Place = 0
+    wishes: Place = 0
+    trees: Place = 0
+    ancestors: Place = 0
+
+
+class AncestorEntry(Strict, frozen=True):
+    how: Literal["forked", "merged"]
+    name: Label
+    digest: Annotated[str, Meta(pattern="^[0-9a-f]{64}$")]
+
+
+class LessonEntry(Strict, frozen=True):
+    kind: Literal["positive", "omission", "commission"]
+    rule: Label
+    situation: Annotated[tuple[tuple[Label, Label | None], ...], Meta(min_length=1, max_length=MAX_TREES)]
+    id: Text
+    note: Text = ""
+    raw: Facts = msgspec.field(default_factory=dict)
+    blame: Label = ""
+    action: ActionEntry | None = None
+
+
+class StepEntry(Strict, frozen=True, omit_defaults=True):
+    how: How
+    lesson: LessonEntry | None = None
+    rulebook: BookEntry | None = None
+    note: Text = ""
+    events: Place = 0
+
+
+class RuleHead(Strict, frozen=True):
+    """A rule without its instances, and how many of these there are."""
+
+    place: Place
+    action: ActionEntry
+    upper: Annotated[tuple[Label, ...], Meta(max_length=MAX_TREES)]
+    lower: Leaves
+    quiet: Place
+    proposed: bool
+    rights: Place
+    wrongs: Place
+
+
+class Held(Strict, frozen=True):
+    """An instance as a rule holds it, and for a wrong one the choice that keeps it out."""
+
+    instance: InstanceEntry
+    choice: tuple[Label, tuple[Label, ...]] | None = None
+
+
+class File(Strict, frozen=True):
+    """All of a book."""
+
+    about: About
+    rulebook: BookEntry
+    steps: tuple[StepEntry, ...]
+    ancestors: tuple[AncestorEntry, ...] = ()
+
+
+ENCODER = msgspec.json.Encoder(order="deterministic")
+
+
+def encoded(entry: Any) -> str:
+    """JSON on one line, the same for the same entry. Raises `WrongUse` for text that no file can hold."""
+    try:
+        return ENCODER.encode(entry).decode()
+    except UnicodeEncodeError as error:
+        raise WrongUse(f"a skillbook holds text only: {error}") from None
+
+
+def checked(entry: Any, kind: type[T]) -> T:
+    """An entry as it will be when it is read again. Raises `WrongUse` where it could not be."""
+    try:
+        return msgspec.convert(msgspec.to_builtins(entry), kind)
+    except msgspec.ValidationError as error:
+        raise WrongUse(f"a skillbook cannot hold this: {error}") from None
+
+
+def rulebook_entry(book: Rulebook) -> BookEntry:
+    """A rulebook, checked against the limits of a file."""
+    return checked(to_plain(book), BookEntry)
+
+
+def event_entries(events: tuple[Event, ...]) -> tuple[EventEntry, ...]:
+    return tuple(checked(event, EventEntry) for event in events)
+
+
+def step_entry(step: Step) -> StepEntry:
+    """A step, checked against the limits of a file; of its events only how many."""
+    lesson = None if step.lesson is None else _lesson_entry(step.lesson)
+    rulebook = None if step.rulebook is None else rulebook_entry(step.rulebook)
+    return checked(StepEntry(step.how, lesson, rulebook, step.note, len(step.events)), StepEntry)
+
+
+def _lesson_entry(lesson: Lesson) -> LessonEntry:
+    action = None if lesson.action is None else checked(lesson.action, ActionEntry)
+    pairs = tuple(lesson.situation.items())
+    return LessonEntry(
+        lesson.kind, lesson.rule, pairs, lesson.id, lesson.note, dict(lesson.raw), lesson.blame, action
+    )
+
+
+def ancestor_entry(ancestor: Ancestor) -> AncestorEntry:
+    return checked(ancestor, AncestorEntry)
+
+
+# --- back ------------------------------------------------------------------------------------------
+def rulebook_of(entry: BookEntry, source: str) -> Rulebook:
+    """The rulebook of an entry. Raises `BadFile`."""
+    return from_plain(msgspec.to_builtins(entry), source)
+
+
+def steps_of(entries: tuple[StepEntry, ...], events: tuple[Event, ...], source: str) -> tuple[Step, ...]:
+    """The steps, each with its share of the events. Raises `BadFile` where they do not fit together."""
+    if not entries or entries[0].how != "begun":
+        raise BadFile(f"{source}: its history does not begin with a rulebook")
+    if sum(entry.events for entry in entries) != len(events):
+        raise BadFile(f"{source}: its steps moved other things than its rules remember")
+    steps, start = [], 0
+    for place, entry in enumerate(entries):
+        steps.append(_step(entry, events[start : start + entry.events], f"{source}, step {place}"))
+        start += entry.events
+    return tuple(steps)
+
+
+def _step(entry: StepEntry, events: tuple[Event, ...], source: str) -> Step:
+    whole = entry.how in ("begun", "edited")
+    if whole != (entry.rulebook is not None) or whole != (entry.lesson is None):
+        wanted = "a rulebook and no lesson" if whole else "a lesson and no rulebook"
+        raise BadFile(f"{source}: a step {entry.how!r} has {wanted}")
+    rulebook = None if entry.rulebook is None else rulebook_of(entry.rulebook, source)
+    return Step(entry.how, _lesson(entry.lesson, source), rulebook, entry.note, events)
+
+
+def _lesson(entry: LessonEntry | None, source: str) -> Lesson | None:
+    """The lesson of an entry. Raises `BadFile` for one of no sense."""
+    if entry is None:
+        return None
+    trees = tuple(tree for tree, _ in entry.situation)
+    if len(set(trees)) < len(trees):
+        raise BadFile(f"{source}: {entry.id} names a tree twice")
+    a = entry.action
+    try:
+        action = a and Action(a.skill, a.slowest, a.fastest, a.until, a.adds, a.deletes, a.details)
+    except WrongUse as error:
+        raise BadFile(f"{source}: {error}") from None
+    situation = Situation(trees, tuple(value for _, value in entry.situation))
+    return Lesson(entry.kind, entry.rule, situation, entry.id, entry.note, entry.raw, entry.blame, action)
+
+
+def ancestors_of(entries: tuple[AncestorEntry, ...]) -> tuple[Ancestor, ...]:
+    return tuple(Ancestor(entry.how, entry.name, entry.digest) for entry in entries)

@@ -1,0 +1,74 @@
+"""What was taught, step by step: enough to make the rulebook again from nothing."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from gaitwright.errors import WrongUse
+from gaitwright.knowledge.learn import Inconsistency, Lesson, learn
+from gaitwright.knowledge.mend import mend
+from gaitwright.knowledge.rules import Event, Instance, Rulebook
+from gaitwright.knowledge.teach import teach
+
+How = Literal["begun", "taught", "learned", "mended", "edited"]
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One step: its lesson and how that was taken in, and the events that it moved.
+
+    `how`: "taught" by `teach`, "learned" by `learn`, "mended" by `mend` right after a step that ended in a
+    contradiction. "begun" and "edited" (a confirmation, an analogy, a new feature, a person's change) hold
+    the whole `rulebook` after them, without its events, and say in `note` what they are.
+    """
+
+    how: How
+    lesson: Lesson | None = None
+    rulebook: Rulebook | None = None
+    note: str = ""
+    events: tuple[Event, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Ancestor:
+    """A book that this one came from: its name and the hash of all it held then."""
+
+    how: Literal["forked", "merged"]
+    name: str
+    digest: str
+
+
+def settled(lesson: Lesson, lessons: int) -> Lesson:
+    """A lesson as a file keeps it: numbered, and without measurements that are not finite."""
+    name = lesson.id or f"lesson {lessons + 1}"
+    kept = Instance(name, lesson.kind, lesson.situation, lesson.raw).raw
+    return replace(lesson, id=name, raw=dict(kept))
+
+
+def replayed(steps: Iterable[Step]) -> Rulebook:
+    """The rulebook that the steps make when they are taken again. Raises `WrongUse` where they cannot be."""
+    book: Rulebook | None = None
+    trouble: Inconsistency | None = None
+    for step in steps:
+        if step.rulebook is not None:
+            events = (*(book.events if book else ()), *step.events)
+            book, trouble = replace(step.rulebook, events=events), None
+        elif book is None or step.lesson is None:
+            raise WrongUse(f"a history begins with a rulebook, and a step {step.how!r} has a lesson")
+        else:
+            book, trouble = taken(book, step.how, step.lesson, trouble)
+    if book is None:
+        raise WrongUse("a history has at least the step that began it")
+    return book
+
+
+def taken(
+    book: Rulebook, how: How, lesson: Lesson, trouble: Inconsistency | None
+) -> tuple[Rulebook, Inconsistency | None]:
+    """The rulebook after one lesson, and the contradiction that it ended in."""
+    if how == "mended":
+        if trouble is None:
+            raise WrongUse(f"{lesson.id} was mended, but nothing contradicted it")
+        return mend(book, trouble, lesson.blame).book, None
+    learned = teach(book, lesson) if how == "taught" else learn(book, lesson)
+    return learned.book, learned.trouble

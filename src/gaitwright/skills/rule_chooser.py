@@ -1,0 +1,145 @@
+"""Skills by rules: the situation, the rule that fires there, and its skill (row L2; algorithm C)."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from gaitwright.errors import WrongUse
+from gaitwright.knowledge.forest import Forest, Situation
+from gaitwright.knowledge.masks import Compiled, compile_book, decide
+from gaitwright.knowledge.memory import Action, Fact, applied, remembered
+from gaitwright.knowledge.rules import Rulebook
+from gaitwright.model.robot import Robot
+from gaitwright.signals import Route, Sensed, SkillCall
+from gaitwright.skills.chooser import PlainChooser
+from gaitwright.skills.following import braked, heading_error, turn_rate
+from gaitwright.skills.library import fastest, find_skill, gait_of, skill_names, speed_scale
+from gaitwright.skills.situation import FOREST, measured, named
+
+DOING = "rule in use"
+"""The fact of working memory that names the rule that fired last."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ruling:
+    """What the rules say: the rule (`None`: none fires), how sure, and whether it only goes on (`until`)."""
+
+    rule: str | None
+    sure: bool
+    kept: bool
+    situation: Situation
+
+
+@dataclass(frozen=True)
+class RuleChooser:
+    """Chooses the skills of one robot by a rulebook; where no rule fires, by the plain rules."""
+
+    robot: Robot
+    book: Rulebook
+
+    def __post_init__(self) -> None:
+        """Raises `WrongUse` for a rulebook over other trees, or an until-condition that asks for none."""
+        missing = [name for name in FOREST.names if name not in self.book.forest.names]
+        if missing:
+            raise WrongUse(f"this rulebook knows nothing of {', '.join(missing)}: it is not about skills")
+        for rule in self.book.rules:
+            check_until(self.book.forest, rule.action)
+
+    def choose(self, route: Route, sensed: Sensed, now: SkillCall | None = None) -> SkillCall:
+        """The skill for what lies ahead; `now` is the one in use."""
+        raw = measured(self.robot, route, sensed, now)
+        memory = remembered(now.memory if now is not None else {})
+        ruling = self.ruling(self.situation(raw, now), memory)
+        action = self.actions.get(ruling.rule or "")
+        if action is None or action.skill not in skill_names(self.robot.n):
+            return self.fallen_back(route, sensed, now, ruling)
+        kept = {**applied(action, memory), DOING: str(ruling.rule)}
+        call = carried_out(self.robot, action, route, sensed)
+        return replace(call, because=self.because(ruling), memory=kept)
+
+    def ruling(self, situation: Situation, memory: Mapping[str, Fact]) -> Ruling:
+        """The rule for a situation: the one in use until its condition holds, else the first that fires."""
+        doing = str(memory.get(DOING, ""))
+        action = self.actions.get(doing)
+        under_way = situation["goal"] not in ("arrived", "no goal")
+        if action and action.until and under_way and not holds(action.until, situation):
+            return Ruling(doing, True, True, situation)
+        rule, sure = decide(self.compiled, dict(situation.items()))  # pyright: ignore[reportArgumentType]
+        return Ruling(rule, sure, False, situation)
+
+    def situation(self, raw: Mapping[str, float], now: SkillCall | None) -> Situation:
+        """The situation in the rulebook's own trees: those of today and those it grew since."""
+        values: dict[str, str | float] = {name: value for name, value in named(raw, now).items() if value}
+        for tree in self.book.forest.trees:
+            if tree.name not in values:
+                values[tree.name] = raw[tree.source or tree.name]
+        return self.book.forest.situation(values)
+
+    def because(self, ruling: Ruling) -> str:
+        """Why, as a sentence: the rule and how sure it is."""
+        if ruling.kept:
+            return f"rule {ruling.rule}: it goes on until {self.actions[str(ruling.rule)].until}"
+        told = "sure" if ruling.sure else "not seen just like this before"
+        return f"rule {ruling.rule}: {told}"
+
+    def fallen_back(self, route: Route, sensed: Sensed, now: SkillCall | None, ruling: Ruling) -> SkillCall:
+        """What the plain rules say, and why they were asked."""
+        call = PlainChooser(self.robot).choose(route, sensed, now)
+        asked = (
+            "no rule fires" if ruling.rule is None else f"rule {ruling.rule} wants a skill it does not have"
+        )
+        kept = {name: fact for name, fact in (now.memory if now else {}).items() if name != DOING}
+        return replace(call, because=f"{asked}; plainly: {call.because}", memory=kept)
+
+    @cached_property
+    def compiled(self) -> Compiled:
+        return compile_book(self.book)
+
+    @cached_property
+    def actions(self) -> dict[str, Action]:
+        return {rule.name: rule.action for rule in self.book.rules}
+
+
+def carried_out(robot: Robot, action: Action, route: Route, sensed: Sensed) -> SkillCall:
+    """An action on this robot and route: as fast as wished within its range, slower before the goal.
+
+    The speeds of an action are those of a robot 0.29 m tall [m/s]; a larger one goes faster.
+    """
+    skill, scale = find_skill(action.skill, robot), speed_scale(robot)
+    error = heading_error(route, sensed) if route.path else 0.0
+    most = min(action.fastest * scale, fastest(skill, robot))
+    speed = min(most, max(braked(robot, route), min(action.slowest * scale, room(robot, route))))
+    speed *= max(0.0, math.cos(error)) if skill.way == (1.0, 0.0) else 1.0
+    turn = turn_rate(robot, error) if route.path and skill.duty < 1.0 else 0.0
+    velocity = (speed * skill.way[0], speed * skill.way[1])
+    return SkillCall(skill.name, gait_of(skill, robot), velocity, turn, route.driver, "")
+
+
+def room(robot: Robot, route: Route) -> float:
+    """The fastest speed that leaves time to stop at the goal [m/s]."""
+    return braked(robot, replace(route, speed=math.inf))
+
+
+def holds(until: str, situation: Situation) -> bool:
+    """Whether a condition "TREE is VALUE or VALUE" holds."""
+    tree, values = condition(until)
+    return situation[tree] in values
+
+
+def condition(until: str) -> tuple[str, tuple[str, ...]]:
+    """Tree and values of "TREE is VALUE or VALUE". Raises `WrongUse` for any other text."""
+    tree, is_, values = until.partition(" is ")
+    if not is_:
+        raise WrongUse(f"{until!r} is no condition; write e.g. 'turn is straight on'")
+    return tree, tuple(values.split(" or "))
+
+
+def check_until(forest: Forest, action: Action) -> None:
+    """`WrongUse` where an action goes on until something that can never be."""
+    if action.until:
+        tree, values = condition(action.until)
+        for value in values:
+            forest[tree].at(value)
+            if not forest[tree].is_leaf(value):
+                raise WrongUse(f"{action.skill}: until {action.until!r} must name leaves of {tree}")

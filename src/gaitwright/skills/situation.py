@@ -1,0 +1,282 @@
+"""Route + Sensed → Situation: where the robot stands among the features that rules tell apart (§5.4.2.1).
+
+`measured` reads plain numbers, in units that suit any robot: lengths of road in body heights, ways in body
+lengths, speeds as of a robot 0.29 m tall. `situation` names the leaf of each tree they fall into. Nothing
+else looks at the world for the rules: a new feature is one tree here, and one number where none has it yet.
+"""
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from gaitwright.geometry import GRAVITY, dot, heading, roll_pitch_yaw, rotation, times_t, vec, wrap
+from gaitwright.knowledge.forest import Forest, Situation
+from gaitwright.knowledge.trees import interval_tree, tree
+from gaitwright.model.kinematics import leg_points_and_jacobian
+from gaitwright.model.robot import Robot
+from gaitwright.signals import Route, Scan, Sensed, SkillCall
+from gaitwright.skills.chooser import KEEP_TURNING, TURN_FIRST
+from gaitwright.skills.following import bearing, braked, heading_error, wished_speed
+from gaitwright.skills.library import LIBRARY, OTHER_NAMES, speed_scale
+
+LOADED = 0.02
+"""A foot that carries this share of the weight is down."""
+OUT_OF_SIGHT = 20.0
+"""Obstacles farther than this count as being this far [body lengths]."""
+
+GAP, STEP, STEEP, GENTLE, SMOOTH, UNEVEN = 0.1, 0.14, 8.0, 3.0, 0.03, 0.06
+"""Where names of the road begin: gap and step [body heights], steep and gentle slope [°], roughness and small
+steps of rough ground [body heights]."""
+
+SUPPORT = tree(
+    "support",
+    {
+        "planted": ("all feet down", "most feet down"),
+        "light": ("half the feet down", "few down", "in flight"),
+    },
+    about="on the ground are",
+)
+ROAD = tree(
+    "road",
+    {
+        "easy": ("flat", "gently uphill", "gently downhill"),
+        "up": ("steep uphill", "stairs up"),
+        "down": ("steep downhill", "stairs down"),
+        "broken": ("rough", "gap"),
+    },
+    about="the road is",
+)
+DISTANCE = interval_tree(
+    "distance",
+    "body lengths",
+    (1.0, 3.0, 10.0),
+    ("at hand", "near", "some way", "far"),
+    about="the way left is",
+)
+GOAL = tree(
+    "goal",
+    {"nothing to do": ("no goal", "arrived"), "under way": ("way-point ahead", "goal ahead", "goal near")},
+    about="the mission has",
+)
+TURN = tree(
+    "turn",
+    {
+        "ahead": ("straight on", "left", "right"),
+        "off the way": ("sharp left", "sharp right", "behind"),
+    },
+    about="the path goes",
+)
+PACE = interval_tree(
+    "pace",
+    "m/s at 0.29 m",
+    (0.15, 0.3, 1.0, 1.6),
+    {"slow": ("crawling", "walking pace"), "trotting pace": (), "fast": ("running pace", "racing pace")},
+    about="the speed asked for now is a",
+)
+STABILITY = interval_tree(
+    "stability", "", (0.15, 0.3), {"under control": ("steady", "swaying"), "stumbling": ()}, about="it is"
+)
+OBSTACLE = interval_tree(
+    "obstacle",
+    "body lengths",
+    (1.0, 3.0),
+    {"close": (), "clear": ("near", "far or none")},
+    about="an obstacle is",
+)
+EFFORT = interval_tree(
+    "effort", "", (0.25, 0.6), {"lightly": (), "hard": ("normally", "heavily")}, about="the motors work"
+)
+STREET = tree(
+    "street", {"east-west": ("east", "west"), "north-south": ("north", "south")}, about="the way leads"
+)
+PATH = tree("path", ("unknown", "travelled before"), about="the path is")
+DOING = tree(
+    "doing",
+    {"slow": ("standing", "turning", "walking"), "quick": ("trotting", "flying")},
+    about="it has been",
+)
+
+FOREST = Forest((SUPPORT, ROAD, DISTANCE, GOAL, TURN, PACE, STABILITY, OBSTACLE, EFFORT, STREET, PATH, DOING))
+"""The situation space: twelve trees, as in the thesis's experimental system."""
+
+READ_FROM = {
+    "feet down": "support",
+    "slope": "road",
+    "roughness": "road",
+    "step up": "road",
+    "step down": "road",
+    "gap": "road",
+    "remaining": "distance",
+    "points left": "goal",
+    "arrived": "goal",
+    "off the path": "turn",
+    "wished": "pace",
+    "possible": "pace",
+    "sway": "stability",
+    "obstacle": "obstacle",
+    "effort": "effort",
+    "direction": "street",
+    "familiar": "path",
+    "speed": "doing",
+    "turning": "doing",
+}
+"""The tree in which each measured number is read."""
+
+
+def situation(robot: Robot, route: Route, sensed: Sensed, call: SkillCall | None = None) -> Situation:
+    """The leaf of every tree; `call` is what the robot does at the time, with its working memory."""
+    return named(measured(robot, route, sensed, call), call)
+
+
+def named(raw: Mapping[str, float], call: SkillCall | None = None) -> Situation:
+    """The situation that measured numbers describe."""
+    values = (
+        support_of(raw["feet down"]),
+        road_of(raw),
+        DISTANCE.leaf_of(raw["remaining"]),
+        goal_of(raw),
+        turn_of(raw["off the path"]),
+        PACE.leaf_of(raw["possible"]),
+        STABILITY.leaf_of(raw["sway"]),
+        OBSTACLE.leaf_of(raw["obstacle"]),
+        EFFORT.leaf_of(raw["effort"]),
+        street_of(raw["direction"]),
+        "travelled before" if raw["familiar"] else "unknown",
+        doing_of(call),
+    )
+    return Situation(FOREST.names, values)
+
+
+# --- numbers ---------------------------------------------------------------------------------------
+def measured(robot: Robot, route: Route, sensed: Sensed, call: SkillCall | None = None) -> dict[str, float]:
+    """What rules and teachers go by, as plain numbers (degrees; see the module for the other units).
+
+    With no scan the road is what the body's lean says. `possible` is the wished speed as far as it leaves
+    time to stop; `arrived` is −1 where there is nowhere to go.
+    """
+    scan = route.ahead or felt(sensed)
+    h, unit, scale = robot.height, robot.body_length, speed_scale(robot)
+    down = float(np.mean(sensed.load > LOADED * robot.total_mass * GRAVITY))
+    going = bool(route.path) and not route.arrived
+    off, way = (heading_error(route, sensed), bearing(route, sensed)) if going else (0.0, scan.street)
+    numbers = {
+        "feet down": down,
+        "slope": math.degrees(scan.slope),
+        "roughness": scan.roughness / h,
+        "step up": scan.step_up / h,
+        "step down": scan.step_down / h,
+        "gap": scan.gap / h,
+        "remaining": route.remaining / unit,
+        "points left": float(len(route.path)),
+        "arrived": 1.0 if route.arrived else 0.0 if route.path else -1.0,
+        "off the path": math.degrees(off),
+        "wished": wished_speed(robot, route) / scale,
+        "possible": braked(robot, route) / scale,
+        "sway": sway(robot, sensed, scan),
+        "obstacle": min(OUT_OF_SIGHT, scan.obstacle / unit),
+        "effort": effort(robot, sensed),
+        "direction": math.degrees(float(wrap(way))),
+        "familiar": float(scan.familiar),
+        "turning": float(doing_of(call) == "turning"),
+        "speed": math.hypot(float(sensed.velocity_w[0]), float(sensed.velocity_w[1])) / scale,
+    }
+    return numbers
+
+
+def felt(sensed: Sensed) -> Scan:
+    """The ground as the body's lean tells it, where nobody looked ahead."""
+    roll, pitch, yaw = roll_pitch_yaw(rotation(sensed.orientation_wb))
+    return Scan(slope=-float(pitch), cross=float(roll), street=float(yaw))
+
+
+def sway(robot: Robot, sensed: Sensed, scan: Scan) -> float:
+    """How far the body is from steady: roll off the ground [rad], roll rate and sideways speed.
+
+    Rates are taken over √(h/g) and speeds as shares of √(g h), so that one scale fits all robots.
+    """
+    pose = rotation(sensed.orientation_wb)
+    roll = float(roll_pitch_yaw(pose)[0]) - scan.cross
+    yaw = heading(pose)
+    sideways = float(math.cos(yaw) * sensed.velocity_w[1] - math.sin(yaw) * sensed.velocity_w[0])
+    rate = float(sensed.angular_velocity_b[0])
+    w = robot.natural_frequency
+    return math.hypot(roll, rate / w, sideways / (w * robot.height))
+
+
+def effort(robot: Robot, sensed: Sensed) -> float:
+    """Largest share of a motor's torque that the loads on the feet ask for by themselves: |Jᵀ f| / τ_max."""
+    up_b = times_t(rotation(sensed.orientation_wb), (0.0, 0.0, 1.0))
+    most = 0.0
+    for i in range(robot.n):
+        up = times_t(robot.leg_frame[i], up_b)
+        _, *columns = leg_points_and_jacobian(sensed.q[i], robot.offset[i], robot.sign[i])
+        load = float(sensed.load[i])
+        for column, limit in zip(columns, vec(robot.tau_max[i]), strict=True):
+            most = max(most, abs(dot(column, up)) * load / limit)
+    return most
+
+
+# --- names -----------------------------------------------------------------------------------------
+def support_of(down: float) -> str:
+    """How many of the feet carry load, by their share."""
+    bounds = (
+        (1.0, "all feet down"),
+        (0.51, "most feet down"),
+        (0.49, "half the feet down"),
+        (0.01, "few down"),
+    )
+    return next((name for least, name in bounds if down >= least), "in flight")
+
+
+def road_of(raw: Mapping[str, float]) -> str:
+    """What the road ahead is, the hardest part of it first."""
+    slope, up, down = raw["slope"], raw["step up"], raw["step down"]
+    if raw["gap"] > GAP:
+        return "gap"
+    if max(up, down) > STEP:
+        return "stairs up" if up > down else "stairs down"
+    if abs(slope) > STEEP:
+        return "steep uphill" if slope > 0.0 else "steep downhill"
+    if raw["roughness"] > SMOOTH or max(up, down) > UNEVEN:
+        return "rough"
+    if abs(slope) > GENTLE:
+        return "gently uphill" if slope > 0.0 else "gently downhill"
+    return "flat"
+
+
+def goal_of(raw: Mapping[str, float]) -> str:
+    """How far the mission is."""
+    if raw["arrived"]:
+        return "arrived" if raw["arrived"] > 0.0 else "no goal"
+    if raw["points left"] > 1.0:
+        return "way-point ahead"
+    return "goal near" if raw["remaining"] < DISTANCE.bounds[1] else "goal ahead"
+
+
+def turn_of(degrees: float) -> str:
+    """Where the path goes from the robot's nose."""
+    off = math.radians(abs(degrees))
+    if off > math.radians(130.0):
+        return "behind"
+    side = "left" if degrees > 0.0 else "right"
+    if off > TURN_FIRST:
+        return f"sharp {side}"
+    return side if off > KEEP_TURNING else "straight on"
+
+
+def street_of(degrees: float) -> str:
+    """The quarter of the compass in which a direction lies; east is along x."""
+    return ("east", "north", "west", "south")[round(degrees / 90.0) % 4]
+
+
+def doing_of(call: SkillCall | None) -> str:
+    """What kind of motion a skill is."""
+    if call is None:
+        return "standing"
+    skill = LIBRARY[OTHER_NAMES.get(call.skill, call.skill)]
+    if skill.duty >= 1.0:
+        return "standing"
+    if skill.speed == 0.0:
+        return "turning"
+    return "walking" if skill.duty > 0.7 else "trotting" if skill.duty >= 0.55 else "flying"

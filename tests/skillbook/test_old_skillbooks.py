@@ -1,0 +1,50 @@
+"""Books of every version load forever, and a newer version can add tables."""
+
+import sqlite3
+from contextlib import closing
+from pathlib import Path
+
+import pytest
+from schooling import random_lesson
+
+from gaitwright.errors import BadFile
+from gaitwright.skillbook import Skillbook, import_text, open_for_learning, schema
+
+HERE = Path(__file__).parent
+
+
+@pytest.fixture
+def first(tmp_path):
+    """A book as version 1 wrote it."""
+    path = tmp_path / "first.skills"
+    with closing(sqlite3.connect(path)) as db:
+        db.executescript((HERE / "version_1.sql").read_text(encoding="utf-8"))
+        db.execute(f"PRAGMA application_id={0x47614954}")
+        db.execute("PRAGMA user_version=1")
+    return path
+
+
+def test_a_book_of_the_first_version_loads(first):
+    book = Skillbook.load(first)
+    assert book == import_text((HERE / "version_1.txt").read_text(encoding="utf-8"))
+    assert (book.name, book.robot, len(book.rulebook.rules)) == ("the first", "go2", 3)
+    assert book.replayed() == book.rulebook
+
+
+def test_a_newer_version_reads_and_teaches_older_books(first, rng, monkeypatch):
+    book = Skillbook.load(first)
+    more = "CREATE TABLE profiles (name TEXT NOT NULL PRIMARY KEY, content TEXT NOT NULL) STRICT"
+    with monkeypatch.context() as newer:
+        newer.setattr(schema, "MIGRATIONS", (*schema.MIGRATIONS, more))
+        newer.setattr("gaitwright.skillbook.store.MIGRATIONS", schema.MIGRATIONS)
+        before = first.read_bytes()
+        assert Skillbook.load(first) == book and first.read_bytes() == before
+        with open_for_learning(first) as ledger:
+            assert ledger.book == book
+            ledger.teach(random_lesson(rng, book.rulebook.forest))
+            taught = ledger.book
+        with closing(sqlite3.connect(first)) as db:
+            assert db.execute("SELECT count(*) FROM profiles").fetchone() == (0,)
+        assert Skillbook.load(first) == taught
+    with pytest.raises(BadFile, match="book version 2, this one reads up to 1"):
+        Skillbook.load(first)

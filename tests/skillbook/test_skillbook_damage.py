@@ -1,0 +1,205 @@
+"""Damaged, foreign and newer books are refused with one sentence; nothing altered is believed."""
+
+import json
+import sqlite3
+from contextlib import closing
+
+import numpy as np
+import pytest
+from schooling import taught_skillbook
+
+from gaitwright.errors import BadFile
+from gaitwright.skillbook import Skillbook, open_for_learning, rows, schema
+
+
+@pytest.fixture
+def book():
+    return taught_skillbook(11, 6)
+
+
+@pytest.fixture
+def path(tmp_path, book):
+    return book.save(tmp_path / "a.skills")
+
+
+def refused(path, match="a.skills|is no|is damaged|cannot be"):
+    """The one sentence with which both doors refuse a file."""
+    for door in (Skillbook.load, open_for_learning):
+        with pytest.raises(BadFile, match=match) as caught:
+            door(path)
+        sentence = str(caught.value)
+        assert sentence and "\n" not in sentence.strip() and "Traceback" not in sentence
+    return sentence
+
+
+def alter(path, *statements):
+    with closing(sqlite3.connect(path, isolation_level=None)) as db:
+        for statement in statements:
+            db.execute(statement)
+
+
+def test_what_is_missing_or_no_file_is_refused(tmp_path):
+    refused(tmp_path / "nowhere.skills", "there is no skillbook")
+    refused(tmp_path, "is not a file")
+    (tmp_path / "empty.skills").touch()
+    refused(tmp_path / "empty.skills", "is empty")
+    (tmp_path / "lost.skills").symlink_to(tmp_path / "nowhere.skills")
+    refused(tmp_path / "lost.skills", "there is no skillbook")
+    (tmp_path / "round.skills").symlink_to(tmp_path / "round.skills")
+    refused(tmp_path / "round.skills", "cannot be opened")
+    refused(tmp_path / "a\0b", "cannot be opened")
+
+
+@pytest.mark.parametrize("content", [b"\0", b"no book at all " * 1000, b"SQLite format 3\0", b"\xff" * 8192])
+def test_what_is_not_sqlite_is_refused(tmp_path, content):
+    path = tmp_path / "a.skills"
+    path.write_bytes(content)
+    refused(path, "no skillbook")
+    assert path.read_bytes() == content
+
+
+def test_another_programs_file_is_refused(tmp_path):
+    path = tmp_path / "a.skills"
+    alter(path, "CREATE TABLE songs (name)", "PRAGMA application_id=77", "PRAGMA user_version=1")
+    refused(path, "an SQLite file, but no skillbook")
+
+
+def test_a_newer_book_is_refused(path):
+    alter(path, "PRAGMA user_version=3")
+    refused(path, "written by a newer Gaitwright: book version 3, this one reads up to 1")
+    alter(path, "PRAGMA user_version=0")
+    refused(path, "which never was")
+    alter(path, "PRAGMA user_version=-5")
+    refused(path, "which never was")
+
+
+def test_a_book_too_large_is_refused(path, monkeypatch):
+    monkeypatch.setattr(schema, "MAX_BYTES", 10_000)
+    refused(path, "MB; a skillbook may have")
+
+
+@pytest.mark.parametrize(
+    "statement",
+    [
+        "CREATE TABLE more (x)",
+        "CREATE VIEW more AS SELECT * FROM rules",
+        "CREATE TRIGGER t AFTER INSERT ON steps BEGIN DELETE FROM steps; END",
+        "CREATE INDEX i ON steps (content)",
+        "DROP TABLE wishes",
+        "ALTER TABLE wishes ADD COLUMN x TEXT",
+    ],
+)
+def test_a_book_with_other_tables_is_refused(path, statement):
+    alter(path, statement)
+    refused(path, "other tables than a skillbook")
+
+
+@pytest.mark.parametrize(
+    "statement",
+    [
+        "DELETE FROM book",
+        "DELETE FROM trees WHERE place = 1",
+        "DELETE FROM steps WHERE place = 3",
+        "DELETE FROM steps WHERE place = (SELECT max(place) FROM steps)",
+        "DELETE FROM events WHERE step = 1 AND place = 0",
+        "DELETE FROM events",
+        "DELETE FROM instances WHERE place = 0",
+        "DELETE FROM rules WHERE name = 'rule 1'",
+        "UPDATE rules SET name = 'another' WHERE name = 'rule 1'",
+        "UPDATE trees SET place = 100 WHERE place = 1",
+        "UPDATE instances SET place = place + 50",
+        "UPDATE steps SET content = replace(content, 'grass', 'grasp')",
+        "UPDATE steps SET seal = x'0011223344556677'",
+        "UPDATE rules SET content = '{}'",
+    ],
+)
+def test_rows_missing_or_altered_are_noticed(path, statement):
+    alter(path, statement)
+    refused(path, "damaged")
+
+
+def reseal(path, table, edit, where="1"):
+    """Alters the content of rows as one would who knows the seals."""
+    names = rows.KEYS[table]
+    with closing(sqlite3.connect(path, isolation_level=None)) as db:
+        found = db.execute(f"SELECT {', '.join(names)}, content FROM {table} WHERE {where}").fetchall()
+        for *key, content in found:
+            plain = json.loads(content)
+            edit(plain)
+            now = json.dumps(plain)
+            db.execute(
+                f"UPDATE {table} SET content = ?, seal = ? WHERE {' AND '.join(f'{n} = ?' for n in names)}",
+                (now, rows.seal((table, tuple(key)), now), *key),
+            )
+
+
+@pytest.mark.parametrize(
+    ("table", "edit", "message"),
+    [
+        ("trees", lambda t: t["values"].__setitem__(1, "any"), "twice"),
+        ("trees", lambda t: t["parents"].__setitem__(1, 9), "hangs below"),
+        ("trees", lambda t: t.update(name="a"), "two trees named"),
+        ("trees", lambda t: t.update(values=["any"] * 5000), "length <= 1024"),
+        ("rules", lambda r: r.update(upper=["nowhere"] * 4), "no value of a 'nowhere'"),
+        ("rules", lambda r: r.update(place=0), "in no order"),
+        ("rules", lambda r: r["action"].update(slowest=1e308, fastest=0.0), "no range"),
+        ("rules", lambda r: r["action"].update(skill=""), "names a skill"),
+        ("rules", lambda r: r.update(quiet=-1), "quiet"),
+        ("rules", lambda r: r.update(colour="red"), "unknown field `colour`"),
+        ("instances", lambda i: i["instance"].update(values=["any"] * 4), "no leaf"),
+        ("instances", lambda i: i["instance"].update(kind="guess"), "guess"),
+        ("instances", lambda i: i.update(choice=None), "without a choice"),
+        ("instances", lambda i: i["instance"].update(id="x" * 20_000), "length <= 10000"),
+        ("book", lambda b: b.update(lessons=-1), "lessons"),
+        ("book", lambda b: b.update(seed="0"), "seed"),
+        ("steps", lambda s: s.update(how="mended"), "begin with a rulebook|has a lesson"),
+        ("steps", lambda s: s.pop("events", 0), "do not belong together"),
+        ("steps", lambda s: s.get("lesson", {}).update(situation=[["a", "x"], ["a", "y"]]), "a tree twice"),
+        ("events", lambda e: e.update(mark="middle"), "middle"),
+    ],
+)
+def test_hostile_rows_are_refused(path, table, edit, message):
+    reseal(path, table, edit)
+    refused(path, message)
+
+
+def test_marks_that_do_not_fit_their_instances_are_refused(path):
+    def widen(rule):
+        rule["upper"] = ["any"] * len(rule["upper"])
+
+    reseal(path, "rules", widen)
+    refused(path, "the marks do not fit")
+
+
+def test_content_that_is_no_json_is_refused(path):
+    for content in ("", "{", "[" * 100_000, "null"):
+        with closing(sqlite3.connect(path, isolation_level=None)) as db:
+            db.execute("UPDATE book SET content = ?, seal = ?", (content, rows.seal(("book", (0,)), content)))
+        refused(path, "row 0 of its book")
+
+
+def test_a_book_cut_off_anywhere_is_refused(path, book):
+    whole = path.read_bytes()
+    for length in [*range(1, 200, 13), *range(200, len(whole), 1777), len(whole) - 1]:
+        path.write_bytes(whole[:length])
+        refused(path)
+    path.write_bytes(whole)
+    assert Skillbook.load(path) == book
+
+
+def test_a_book_with_flipped_bytes_is_refused_or_the_same(path, book):
+    """Bytes that hold nothing may be anything; no others."""
+    rng = np.random.default_rng()
+    whole, unlike = path.read_bytes(), 0
+    places = [*range(0, 100), *rng.integers(100, len(whole), 250).tolist()]
+    for place in places:
+        spoiled = bytearray(whole)
+        spoiled[place] ^= 1 << int(rng.integers(8))
+        path.write_bytes(bytes(spoiled))
+        try:
+            assert Skillbook.load(path) == book, f"byte {place}"
+        except BadFile:
+            unlike += 1
+        for left in path.parent.glob("a.skills-*"):
+            left.unlink()
+    assert unlike > 50

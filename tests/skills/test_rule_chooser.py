@@ -1,0 +1,119 @@
+"""Skills by rules: the rule's skill at a speed within its range, until its condition, with its reason."""
+
+import math
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from test_chooser import DOG, angles, places, route, sensed
+
+from gaitwright.errors import WrongUse
+from gaitwright.knowledge.consult import consult
+from gaitwright.knowledge.forest import Forest
+from gaitwright.knowledge.learn import Lesson, learn
+from gaitwright.knowledge.memory import Action
+from gaitwright.knowledge.rules import Rulebook
+from gaitwright.knowledge.teach import teach
+from gaitwright.knowledge.trees import tree
+from gaitwright.signals import Scan
+from gaitwright.skills.chooser import PlainChooser
+from gaitwright.skills.library import speed_scale
+from gaitwright.skills.rule_chooser import DOING, RuleChooser, carried_out
+from gaitwright.skills.situation import FOREST, situation
+from oracles import robot_called
+
+AHEAD = route((5.0, 0.0), speed=0.4 * speed_scale(DOG))
+STAIRS = replace(AHEAD, ahead=Scan(slope=0.3, step_up=0.3 * DOG.height))
+SIDEWAYS = route((0.0, 5.0))
+TURN = Action("turn-in-place", until="turn is straight on", adds=(("turns", 1.0),))
+
+
+def taught(*lessons: tuple[Action, object]) -> Rulebook:
+    book = Rulebook(FOREST)
+    for action, way in lessons:
+        at = situation(DOG, way, sensed())
+        blame = {"climb": "road", "turn-in-place": "turn"}.get(action.skill, "")
+        learned = teach(book, Lesson("omission", action.skill, at, blame=blame, action=action))
+        assert learned.trouble is None
+        book = learned.book
+    return book
+
+
+BOOK = taught((Action("trot", 0.2, 0.6), AHEAD), (Action("climb", 0.1, 0.3), STAIRS), (TURN, SIDEWAYS))
+RULES = RuleChooser(DOG, BOOK)
+
+
+def test_each_lesson_is_what_it_then_does_and_it_says_by_which_rule():
+    for way, skill in ((AHEAD, "trot"), (STAIRS, "climb"), (SIDEWAYS, "turn-in-place")):
+        call = RULES.choose(way, sensed())
+        assert (call.skill, call.because, call.memory[DOING]) == (skill, f"rule {skill}: sure", skill)
+    grey = RULES.choose(replace(AHEAD, ahead=Scan(familiar=True)), sensed())
+    assert grey.skill == "trot" and "not seen just like this" in grey.because
+
+
+@given(places, angles, st.floats(0.05, 2.0), st.floats(0.0, 20.0))
+def test_the_rule_is_the_one_that_consulting_finds(place, yaw, speed, left):
+    way, here = route((5.0, 0.0), speed=speed, remaining=left), sensed(place, yaw)
+    decision, call = consult(BOOK, situation(DOG, way, here)), RULES.choose(way, here)
+    assert call.memory.get(DOING) == decision.rule
+    assert ("sure" in call.because) == (decision.certainty == "sure")
+
+
+@given(st.floats(0.05, 2.0), st.floats(0.0, 20.0), st.floats(0.0, 1.0), st.floats(0.0, 1.0))
+def test_it_goes_as_fast_as_wished_within_the_rule_and_slower_before_the_goal(wish, left, a, b):
+    slow, fast = sorted((a, b))
+    way = route((5.0, 0.0), speed=wish, remaining=left)
+    call = carried_out(DOG, Action("trot", slow, fast), way, sensed())
+    k = speed_scale(DOG)
+    brake = max(0.1 * k, 0.6 / k * left)
+    assert call.velocity[0] <= min(fast * k, max(wish, slow * k), brake) + 1e-9
+    if slow * k <= wish <= min(fast * k, brake):
+        assert call.velocity[0] == pytest.approx(wish)
+
+
+def test_what_was_begun_goes_on_until_its_condition_holds():
+    turning = RULES.choose(SIDEWAYS, sensed())
+    near = sensed(yaw=math.radians(65.0))  # 25° off: no rule was taught to turn on the spot there
+    assert RULES.choose(SIDEWAYS, near).skill != "turn-in-place"
+    on = RULES.choose(SIDEWAYS, near, turning)
+    assert on.skill == "turn-in-place" and "until turn is straight on" in on.because
+    assert on.memory["turns"] == 1.0
+    assert RULES.choose(SIDEWAYS, sensed(yaw=math.radians(85.0)), on).skill == "trot"
+    assert RULES.choose(replace(SIDEWAYS, arrived=True), near, on).skill != "turn-in-place"
+
+
+@given(places, angles)
+def test_where_no_rule_fires_the_plain_rules_do_and_that_is_said(place, yaw):
+    here = sensed(place, yaw)
+    call, plainly = (
+        RuleChooser(DOG, Rulebook(FOREST)).choose(AHEAD, here),
+        PlainChooser(DOG).choose(AHEAD, here),
+    )
+    assert (call.skill, call.velocity, call.turn) == (plainly.skill, plainly.velocity, plainly.turn)
+    assert call.because == f"no rule fires; plainly: {plainly.because}"
+
+
+def test_a_skill_that_a_robot_lacks_is_left_to_the_plain_rules():
+    hexapod = robot_called("hexapod")
+    book = learn(
+        Rulebook(FOREST),
+        Lesson("omission", "run", situation(hexapod, AHEAD, six()), action=Action("run", 0.1, 2.0)),
+    ).book
+    call = RuleChooser(hexapod, book).choose(replace(AHEAD, speed=0.1), six())
+    assert call.skill in ("walk", "trot") and "wants a skill it does not have" in call.because
+
+
+def six():
+    import numpy as np
+
+    return replace(sensed(), q=np.zeros((6, 3)), qd=np.zeros((6, 3)), load=np.ones(6))
+
+
+def test_books_about_something_else_and_conditions_that_are_none_are_refused():
+    other = Rulebook(Forest((tree("weather", ("dry", "wet")),)))
+    with pytest.raises(WrongUse, match="knows nothing of support"):
+        RuleChooser(DOG, other)
+    for until, told in (("straight", "is no condition"), ("turn is ahead", "must name leaves of turn")):
+        with pytest.raises(WrongUse, match=told):
+            RuleChooser(DOG, taught((Action("trot", 0.1, 0.5, until=until), AHEAD)))
