@@ -4,14 +4,16 @@ from pathlib import Path
 
 import pytest
 
-from gaitwright.cli import main
+from gaitwright.cli import main, teach
 from gaitwright.skillbook.book import Skillbook
 
 
 @pytest.fixture(scope="module")
 def book(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("school") / "pupil.skills"
-    assert main(["teach", "--lesson", "skills", "--trips", "1", "--out", str(path)]) == 0
+    with pytest.MonkeyPatch.context() as short:
+        short.setattr(teach, "EXAM", 8)
+        assert main(["teach", "--lesson", "skills", "--trips", "1", "--out", str(path)]) == 0
     return path
 
 

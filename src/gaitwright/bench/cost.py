@@ -35,9 +35,9 @@ def measure(session: Session) -> Iterator[Figure]:
             speed, cost = min(points, key=lambda point: point[1])
             what = f"go2 {gait}: least cost of transport, at {speed:.2f} m/s"
             yield Figure(what, cost, "", None, STARTS, note, {"curve": points})
-    yield Figure(
-        "speeds from which another gait is cheapest", float(len(changes(curves))), "", None, 1, said(curves)
-    )
+    turns = changes(curves)
+    told = "; ".join(f"from {speed:.2f} m/s {gait}" for speed, gait in turns)
+    yield Figure("gaits that are the cheapest at some speed", float(len(turns)), "", None, STARTS, told)
 
 
 def curve(session: Session, gait: str, speeds: np.ndarray) -> Curve:

@@ -10,7 +10,9 @@ from gaitwright.cli.console import remark, show_pairs, working
 from gaitwright.cli.output import check_json, write_json
 from gaitwright.cli.trips import find_robot
 from gaitwright.errors import WrongUse
+from gaitwright.knowledge.learn import Learned
 from gaitwright.knowledge.rules import Rulebook, status
+from gaitwright.learning.analogies import proposals
 from gaitwright.learning.apprentice import Studied
 from gaitwright.learning.exam import held_out, right_share
 from gaitwright.learning.school import Schooled, attend
@@ -38,6 +40,7 @@ def run(args: Namespace) -> int:
     try:
         with open_for_learning(path) as ledger:
             schooled = taught(robot, ledger, args)
+            offered = [offer.events[0].why for offer in offer_analogies(ledger)]
     except KeyboardInterrupt:
         remark(f"gaitwright: interrupted; what was learned so far is in {path}")
         return 130
@@ -45,7 +48,7 @@ def run(args: Namespace) -> int:
         right = right_share(
             schooled.book, ScriptedTeacher(), held_out(robot, ScriptedTeacher(), args.seed, EXAM)
         )
-    tell(schooled, right, perf_counter() - began, path, args)
+    tell(schooled, offered, right, perf_counter() - began, args)
     return 0
 
 
@@ -70,6 +73,14 @@ def taught(robot: Robot, ledger: Ledger, args: Namespace) -> Schooled:
     )
 
 
+def offer_analogies(ledger: Ledger) -> tuple[Learned, ...]:
+    """Rules by analogy, put away as proposals: they fire once they are confirmed or seen right."""
+    made = proposals(ledger.book.rulebook)
+    for learned in made:
+        ledger.edit(learned.book, learned.events[0].why)
+    return made
+
+
 def keep(ledger: Ledger, studied: Studied) -> None:
     """Puts every step away, each durable before the next."""
     for step in studied.steps:
@@ -79,12 +90,13 @@ def keep(ledger: Ledger, studied: Studied) -> None:
             ledger.record(step.lesson, step.result, step.how)
 
 
-def tell(schooled: Schooled, right: float, seconds: float, path: Path, args: Namespace) -> None:
-    """What came of it."""
+def tell(schooled: Schooled, offered: list[str], right: float, seconds: float, args: Namespace) -> None:
+    """What came of it; `offered`: the rules proposed by analogy, in sentences."""
     report, rules = schooled.report, schooled.book.rules
     states = ", ".join(f"{rule.name} {status(rule)}" for rule in rules)
     numbers = {
-        "book": str(path),
+        "book": args.out,
+        "proposed": offered,
         "rules": [rule.name for rule in rules],
         "right_on_held_out": right,
         "seconds": seconds,
@@ -98,7 +110,8 @@ def tell(schooled: Schooled, right: float, seconds: float, path: Path, args: Nam
         ("lessons", str(report.lessons)),
         ("firm trees", f"{report.firm:.0%}"),
         ("right on new situations", f"{right:.1%} of {EXAM}"),
+        *(("proposed", sentence) for sentence in offered),
         ("took", f"{seconds:.0f} s"),
-        ("next", f"gaitwright explain {path}"),
+        ("next", f"gaitwright explain {args.out}"),
     ]
-    show_pairs(f"{path} holds what was learned", rows, to_stderr=args.json == "-")
+    show_pairs(f"{args.out} holds what was learned", rows, to_stderr=args.json == "-")
