@@ -15,13 +15,22 @@ from gaitwright.locomotion import Brain
 from gaitwright.model.reach import reach
 from gaitwright.model.robot import Robot
 from gaitwright.model.scene import load_scene
-from gaitwright.needs import BRIEF, Needs, fastest_supported, lasting, needs, shortage, spare_length
+from gaitwright.needs import (
+    BRIEF,
+    Needs,
+    fastest_supported,
+    lasting,
+    needs,
+    shortage,
+    spare_length,
+    too_wide,
+)
 from gaitwright.plant.choose import make_plant
 from gaitwright.plant.models import load_robot
 from gaitwright.recording import Recording, walk
 from gaitwright.signals import Mission
 from gaitwright.skills.chooser import fixed_skill
-from gaitwright.skills.library import find_skill, gait_of, skill_names, speed_scale
+from gaitwright.skills.library import LIBRARY, find_skill, gait_of, skill_names, speed_scale
 
 GO2 = load_robot("go2")
 
@@ -195,3 +204,12 @@ def test_go2_falls_at_a_trot_with_motors_that_are_far_too_weak():
     robot = weakened(GO2, of("trot", 0.4).load / 2.5)
     assert shortage(robot, gait("trot"), (0.4, 0.0), leeway=2.0) is not None
     assert not simulated(robot, "trot", 0.4, 4.0).done
+
+
+@pytest.mark.parametrize("name", ["pace", "rack", "rotary-gallop"])
+def test_a_wide_robot_is_not_carried_by_one_side_in_turn(name: str) -> None:
+    wide, dog = load_robot("thesis"), load_robot("go2")
+    told = too_wide(wide, gait_of(LIBRARY[name], wide))
+    assert told is not None and "thesis" in told and "too wide" in told
+    assert too_wide(dog, gait_of(LIBRARY[name], dog)) is None
+    assert too_wide(wide, gait_of(LIBRARY["trot"], wide)) is None

@@ -16,7 +16,7 @@ from gaitwright.geometry import heading, rotation
 from gaitwright.locomotion import Brain, Lap
 from gaitwright.model.robot import Robot
 from gaitwright.model.scene import Scene
-from gaitwright.needs import HOPELESS, shortage
+from gaitwright.needs import HOPELESS, shortage, too_wide
 from gaitwright.plant.choose import SimulatedPlant
 from gaitwright.signals import Mission, SkillCall
 from gaitwright.skills.chooser import Fixed, fixed_skill
@@ -67,8 +67,8 @@ def climb_by_plan(robot: Robot, scene: Scene, args: Namespace) -> int:
 
 
 def check_motors(robot: Robot, call: SkillCall) -> None:
-    """`WrongUse` where the motors are far too weak for a skill; a remark where they have nothing to spare."""
-    told = shortage(robot, call.gait, call.velocity, call.turn, HOPELESS)
+    """`WrongUse` where body or motors are far from fit for a skill; a remark where nothing is to spare."""
+    told = too_wide(robot, call.gait) or shortage(robot, call.gait, call.velocity, call.turn, HOPELESS)
     if told:
         raise WrongUse(told)
     told = shortage(robot, call.gait, call.velocity, call.turn)
