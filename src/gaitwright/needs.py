@@ -163,7 +163,7 @@ def shortage(
 MOST_SWAY = 0.075
 """A gait that sways the body by more than this, in body heights, throws it over its feet.
 
-Wide robots on one side's feet in turn: measured, the thesis's robot falls at 0.085 and more, others go at 0.07.
+Measured on robots carried by one side in turn: the thesis's falls at 0.085 and more, others go at 0.07.
 """
 
 
