@@ -18,6 +18,7 @@ from gaitwright.knowledge.rules import Rulebook
 from gaitwright.learning.apprentice import corrected, step_of
 from gaitwright.learning.critic import Moment
 from gaitwright.learning.exam import Trial, faults, held_out, right_share, trial
+from gaitwright.learning.keeping import keep
 from gaitwright.learning.school import Schooled, attend, demonstrate, demonstrations
 from gaitwright.learning.teacher import ScriptedTeacher
 from gaitwright.skillbook.book import Skillbook
@@ -136,9 +137,5 @@ def stored(book: Rulebook, teacher: ScriptedTeacher, fault: Moment) -> float:
         Skillbook.new(book).save(path)
         with open_for_learning(path) as ledger:
             began = perf_counter()
-            for step in corrected(ledger.book.rulebook, fault, correction).steps:
-                if step.how == "edited":
-                    ledger.edit(step.result.book, "a new feature")
-                else:
-                    ledger.record(step.lesson, step.result, step.how)
+            keep(ledger, corrected(ledger.book.rulebook, fault, correction))
             return perf_counter() - began

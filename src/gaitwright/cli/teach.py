@@ -13,8 +13,8 @@ from gaitwright.errors import WrongUse
 from gaitwright.knowledge.learn import Learned
 from gaitwright.knowledge.rules import Rulebook, status
 from gaitwright.learning.analogies import proposals
-from gaitwright.learning.apprentice import Studied
 from gaitwright.learning.exam import held_out, right_share
+from gaitwright.learning.keeping import keep
 from gaitwright.learning.school import Schooled, attend
 from gaitwright.learning.teacher import ScriptedTeacher
 from gaitwright.model.robot import Robot
@@ -79,15 +79,6 @@ def offer_analogies(ledger: Ledger) -> tuple[Learned, ...]:
     for learned in made:
         ledger.edit(learned.book, learned.events[0].why)
     return made
-
-
-def keep(ledger: Ledger, studied: Studied) -> None:
-    """Puts every step away, each durable before the next."""
-    for step in studied.steps:
-        if step.how == "edited":
-            ledger.edit(step.result.book, "a new feature, named by the teacher")
-        else:
-            ledger.record(step.lesson, step.result, step.how)
 
 
 def tell(schooled: Schooled, offered: list[str], right: float, seconds: float, args: Namespace) -> None:
