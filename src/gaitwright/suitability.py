@@ -124,12 +124,19 @@ def summary(robot: Robot, findings: Sequence[Finding]) -> str:
     cannot = [
         f"{finding.what}: {finding.sentence}" for finding in trials(findings) if finding.verdict != "ok"
     ]
-    shown = [task.skill for task in TASKS if task.what in can]
+    rhythms = {rhythm(task.skill) for task in TASKS if task.what in can}
+    shown = [name for name in LIBRARY if rhythm(name) in rhythms]
     short = [f.what for f in findings if f.kind == "motors" and f.verdict != "ok" and f.what not in shown]
     parts = [f"{robot.name} can {listed(can)}" if can else f"{robot.name} can do nothing that was tried"]
     parts += [f"it cannot reliably {part}" for part in cannot]
     parts += [f"motors or joints fall short for {listed(short)}"] if short else []
     return "; ".join(parts)
+
+
+def rhythm(skill: str) -> tuple[float, float, str]:
+    """What two skills share that differ in their way or speed only."""
+    row = LIBRARY[skill]
+    return row.period, row.duty, row.offsets
 
 
 def listed(words: Sequence[str]) -> str:

@@ -228,7 +228,7 @@ def test_the_kinematic_driver_goes_through_a_climb_with_a_report() -> None:
     robot, scene, dt = robot_called("thesis"), stairs(45.0, 9.0), 0.1
     short = climb(robot, scene, distance=6.0)
     chooser = Fixed(climb_call(short, "kinematic"))
-    brain = replace(Brain.of(robot, scene, chooser, dt), coordinator=Climber(short, dt))
+    brain = replace(Brain.of(robot, scene, chooser, dt), chooser=chooser, coordinator=Climber(short, dt))
     seconds = len(short.steps) * short.seconds
     plant = KinematicPlant(robot, scene, dt)
     record = walk(brain, plant, Mission((), None, "kinematic"), seconds, vary=False, scene=scene.name)
