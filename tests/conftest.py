@@ -8,8 +8,11 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
-settings.register_profile("here", deadline=None)  # a first call compiles: no deadline can hold
-settings.register_profile("ci", deadline=None, derandomize=True, print_blob=True)
+EXAMPLES = 40
+"""Of each property in a run; other seeds try others. The whole must stay under a quarter of an hour."""
+# A first call compiles: no deadline can hold.
+settings.register_profile("here", deadline=None, max_examples=EXAMPLES)
+settings.register_profile("ci", deadline=None, max_examples=EXAMPLES, derandomize=True, print_blob=True)
 settings.load_profile("ci" if os.environ.get("CI") else "here")
 
 

@@ -56,6 +56,10 @@ def test_the_version_is_the_installed_one():
     assert gaitwright.__version__.count(".") >= 2
 
 
+PEERS = ("_tick.py", "clips_rules.py", "sklearn_rules.py")
+"""Scripts that run in the environments of the peers."""
+
+
 def declared(extra: bool) -> set[str]:
     """Names of the distributions that the package needs, or those of its extras."""
     lines = [line for line in requires("gaitwright") or [] if ("extra ==" in line) == extra]
@@ -64,7 +68,7 @@ def declared(extra: bool) -> set[str]:
 
 def imported() -> set[str]:
     """Names of the distributions that the package imports anywhere; scripts of the peers run elsewhere."""
-    files = [p for p in Path(gaitwright.__file__).parent.rglob("*.py") if not p.name.endswith("_tick.py")]
+    files = [p for p in Path(gaitwright.__file__).parent.rglob("*.py") if not p.name.endswith(PEERS)]
     nodes = [node for file in files for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))]
     names = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
     names |= {node.module for node in nodes if isinstance(node, ast.ImportFrom) and node.module}
