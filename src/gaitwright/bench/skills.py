@@ -57,7 +57,7 @@ ROWS = (
     Row("gallop", held=HELD_FAST),
     Row("gallop", 1.7, HELD_FAST),
     Row("rotary-gallop", held=HELD_FAST),
-    Row("rotary-gallop", 1.7, HELD_FAST),
+    Row("rotary-gallop", 1.4, HELD_FAST),
     *(
         Row(skill, robot="hexapod")
         for skill in ("tripod", "ripple", "wave", "turn-in-place", "walk-sideways")

@@ -65,7 +65,7 @@ LIBRARY: dict[str, Skill] = {
         Skill("pronk", 0.40, 0.55, "together", 0.60, 1.30, "all feet together"),
         Skill("bound", 0.34, 0.50, "front-rear", 0.80, 1.70, "front pair, rear pair"),
         Skill("gallop", 0.34, 0.45, "transverse", 1.20, 2.00, "transverse gallop"),
-        Skill("rotary-gallop", 0.34, 0.45, "rotary", 1.20, 2.00, "rotary gallop"),
+        Skill("rotary-gallop", 0.34, 0.45, "rotary", 1.20, 1.50, "rotary gallop"),
         Skill("tripod", 0.40, 0.60, "diagonal", 0.40, 1.00, "every other leg: what a trot is on more legs"),
         Skill("ripple", 0.60, 0.75, "walk", 0.25, 0.45, "waves that run from rear to front on either side"),
         Skill("wave", 1.00, 0.75, "wave", 0.10, 0.18, "one leg at a time"),
