@@ -6,9 +6,9 @@ import mujoco
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from gaitwright.bench.oracles import ball_model
-from gaitwright.geometry import rotation
-from gaitwright.model.dynamics.tree import Tree, about_point, checked_tree
+from gaitwright.bench.evidence.oracles import ball_model
+from gaitwright.dynamics.tree import Tree, about_point, checked_tree
+from gaitwright.numerics.geometry import rotation
 from oracles import any_inertia
 
 QUADRUPED = (-1, 0, 1, 0, 3, 0, 5, 0, 7)

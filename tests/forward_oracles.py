@@ -4,10 +4,10 @@ from dataclasses import fields, replace
 
 import numpy as np
 
-from gaitwright.bench.oracles import hinge_model
-from gaitwright.geometry import rotation
-from gaitwright.model.dynamics.articulated import Accelerations
+from gaitwright.bench.evidence.oracles import hinge_model
+from gaitwright.dynamics.articulated import Accelerations
 from gaitwright.model.robot import Robot
+from gaitwright.numerics.geometry import rotation
 from gaitwright.signals import Sensed
 from oracles import State, any_state, mujoco_forward, robot_called, unlike
 

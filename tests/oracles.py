@@ -6,12 +6,12 @@ from functools import cache
 import mujoco
 import numpy as np
 
-from gaitwright.bench.oracles import hinge_model
-from gaitwright.geometry import GRAVITY, rotation
+from gaitwright.bench.evidence.oracles import hinge_model
+from gaitwright.description.load import load_robot
+from gaitwright.ground.scene import load_scene
 from gaitwright.model.robot import Robot
-from gaitwright.model.scene import load_scene
-from gaitwright.plant.models import load_robot
-from gaitwright.plant.world import build_world
+from gaitwright.numerics.geometry import GRAVITY, rotation
+from gaitwright.plant.mujoco.world import build_world
 from robots_by_hand import dog, insect
 
 BY_HAND = {"dog": dog, "insect": insect}

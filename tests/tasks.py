@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from gaitwright.bench.sharing_oracles import Task
-from gaitwright.control.demand import Load
-from gaitwright.geometry import GRAVITY
+from gaitwright.bench.evidence.sharing_oracles import Task
+from gaitwright.control.inverse_dynamics import Load
+from gaitwright.numerics.geometry import GRAVITY
 
 WEIGHT, HEIGHT = 15.0 * GRAVITY, 0.3
 """[N], [m]"""

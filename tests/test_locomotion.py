@@ -8,17 +8,17 @@ import mujoco
 import numpy as np
 import pytest
 
-from gaitwright.geometry import GRAVITY
+from gaitwright.ground.scene import Scene, load_scene
+from gaitwright.ground.terrain import Box, Flat
 from gaitwright.locomotion import Brain, Lap, think, trip
 from gaitwright.model.robot import Robot
-from gaitwright.model.scene import Scene, load_scene
-from gaitwright.model.terrain import Box, Flat
-from gaitwright.plant.simulation import MujocoPlant
-from gaitwright.recording import Recording, walk
+from gaitwright.numerics.geometry import GRAVITY
+from gaitwright.plant.mujoco.simulation import MujocoPlant
+from gaitwright.record.recording import Recording, walk
 from gaitwright.signals import Mission, Torques
 from gaitwright.skills.chooser import fixed_skill
 from gaitwright.skills.library import LIBRARY, speed_scale
-from gaitwright.watch import STUCK, Verdict, Watch
+from gaitwright.termination import STUCK, Verdict, Watch
 from oracles import robot_called
 
 DT = 0.002

@@ -12,7 +12,8 @@ import pytest
 from jaxtyping import TypeCheckError
 
 import gaitwright
-from gaitwright import _HOME, geometry
+from gaitwright import _HOME
+from gaitwright.numerics import geometry
 
 NEEDED_BY_NUMBA: set[str] = set()
 """Never imported here: numba looks for it when a kernel has `@` or `np.linalg`."""

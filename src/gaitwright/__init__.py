@@ -12,20 +12,20 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from gaitwright.description.load import load_robot as load_robot
     from gaitwright.errors import BadFile as BadFile
     from gaitwright.errors import GaitwrightError as GaitwrightError
     from gaitwright.errors import WrongUse as WrongUse
-    from gaitwright.gait.cycle_file import load_cycle as load_cycle
-    from gaitwright.gait.leg_cycle import LegCycle as LegCycle
+    from gaitwright.gait.leg_cycles.files import load_cycle as load_cycle
+    from gaitwright.gait.leg_cycles.leg_cycle import LegCycle as LegCycle
+    from gaitwright.ground.scene import Scene as Scene
+    from gaitwright.ground.scene import load_scene as load_scene
     from gaitwright.locomotion import Brain as Brain
     from gaitwright.model.robot import Robot as Robot
-    from gaitwright.model.scene import Scene as Scene
-    from gaitwright.model.scene import load_scene as load_scene
-    from gaitwright.plant.models import load_robot as load_robot
-    from gaitwright.plant.simulation import MujocoPlant as MujocoPlant
-    from gaitwright.recording import Recording as Recording
-    from gaitwright.recording import Report as Report
-    from gaitwright.recording import walk as walk
+    from gaitwright.plant.mujoco.simulation import MujocoPlant as MujocoPlant
+    from gaitwright.record.recording import Recording as Recording
+    from gaitwright.record.recording import Report as Report
+    from gaitwright.record.recording import walk as walk
     from gaitwright.signals import Gait as Gait
     from gaitwright.signals import Mission as Mission
     from gaitwright.signals import MotionTarget as MotionTarget
@@ -39,14 +39,14 @@ if TYPE_CHECKING:
 
 _ROOMS = {
     "errors": ("BadFile", "GaitwrightError", "WrongUse"),
-    "gait.cycle_file": ("load_cycle",),
-    "gait.leg_cycle": ("LegCycle",),
+    "gait.leg_cycles.files": ("load_cycle",),
+    "gait.leg_cycles.leg_cycle": ("LegCycle",),
     "locomotion": ("Brain",),
     "model.robot": ("Robot",),
-    "model.scene": ("Scene", "load_scene"),
-    "plant.models": ("load_robot",),
-    "plant.simulation": ("MujocoPlant",),
-    "recording": ("Recording", "Report", "walk"),
+    "ground.scene": ("Scene", "load_scene"),
+    "description.load": ("load_robot",),
+    "plant.mujoco.simulation": ("MujocoPlant",),
+    "record.recording": ("Recording", "Report", "walk"),
     "signals": ("Gait", "Mission", "MotionTarget", "Route", "Sensed", "SkillCall", "Torques"),
     "skillbook.book": ("Skillbook",),
 }

@@ -17,18 +17,18 @@ from gaitwright.control.numerical import Method, NumericalController, idle
 from gaitwright.control.programmed import ProgrammedController
 from gaitwright.errors import unknown
 from gaitwright.gait.coordinator import Coordinator
-from gaitwright.gait.cycle import Manner, desired_cycle
+from gaitwright.gait.desired_cycle import Manner, desired_cycle
 from gaitwright.gait.state import GaitMemory
+from gaitwright.ground.foothold_map import Footing
+from gaitwright.ground.scene import Scene
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.model.footing import Footing
 from gaitwright.model.robot import Robot
-from gaitwright.model.scene import Scene
 from gaitwright.navigation.navigator import Navigator
 from gaitwright.signals import Gait, Mission, MotionTarget, Route, Sensed, SkillCall, Torques
-from gaitwright.skills.caution import Cautious
 from gaitwright.skills.chooser import PlainChooser
+from gaitwright.skills.foothold_guard import Cautious
 from gaitwright.skills.rule_chooser import RuleChooser
-from gaitwright.watch import Verdict, Watch
+from gaitwright.termination import Verdict, Watch
 
 LOOK_EVERY = 0.1
 """The navigator looks at the route this often [s]."""
@@ -53,7 +53,7 @@ class Chooser(Protocol):
 
 @runtime_checkable
 class Mover(Protocol):
-    """SkillCall + Sensed → MotionTarget: `gait.coordinator`, or a climb that was planned (`gait.climber`)."""
+    """SkillCall + Sensed → MotionTarget: `gait.coordinator`, or a climb that was planned (`gait.climb`)."""
 
     def begin(self, sensed: Sensed, phase: float = 0.0) -> GaitMemory: ...
 

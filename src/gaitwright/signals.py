@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from jaxtyping import Bool, Float
 
-from gaitwright.compiled import kernel
+from gaitwright.numerics.compiled import kernel
 
 
 @kernel

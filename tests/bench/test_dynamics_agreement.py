@@ -5,14 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gaitwright.bench import dynamics_agreement
-from gaitwright.bench.dynamics_agreement import (
+from gaitwright.bench.evidence import dynamics_agreement
+from gaitwright.bench.evidence.dynamics_agreement import (
     armstrong_agreement,
     closed_form_agreement,
     direct_agreement,
     inverse_agreement,
 )
-from gaitwright.plant.models import load_robot
+from gaitwright.description.load import load_robot
 
 
 @pytest.fixture(autouse=True)

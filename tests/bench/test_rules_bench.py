@@ -8,16 +8,16 @@ import numpy as np
 import pytest
 
 from gaitwright import bench
-from gaitwright.bench import random_schools, rule_decisions, rule_lessons
-from gaitwright.bench.clips_text import constructs, loops, symbols
+from gaitwright.bench.context import Session
+from gaitwright.bench.evidence import random_schools, rule_decisions, rule_lessons
+from gaitwright.bench.evidence.clips_text import constructs, loops, symbols
+from gaitwright.bench.evidence.random_schools import RandomSchool, School, decided, share_firm, share_right
 from gaitwright.bench.peers import rules_client
 from gaitwright.bench.peers.environment import RECIPES, PeerUnavailable
-from gaitwright.bench.random_schools import RandomSchool, School, decided, share_firm, share_right
-from gaitwright.bench.session import Session
 from gaitwright.bench.workers import Workers
 from gaitwright.knowledge.consult import consult
-from gaitwright.knowledge.learn import audit
-from gaitwright.knowledge.plain import loads
+from gaitwright.knowledge.json_form import loads
+from gaitwright.knowledge.modifier import audit
 
 
 @pytest.fixture
@@ -166,7 +166,7 @@ def test_learners_get_the_groups_of_the_trees_too(school):
 
 
 def test_rules_are_a_group_and_have_pinned_peers():
-    assert ("rules", "rules") in bench.claims(["rules"])
+    assert ("rules", "rules") in bench.claims_named(["rules"])
     for name in ("clips", "sklearn"):
         assert name in rules_client.SCRIPTS and rules_client.SCRIPTS[name].is_file()
         assert all("==" in wheel for recipe in RECIPES[name] for wheel in recipe.requirements)

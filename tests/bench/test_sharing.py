@@ -6,16 +6,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gaitwright.bench import agreement, jumps, sharing
-from gaitwright.bench.agreement import KINDS, Tally, weakened
-from gaitwright.bench.gaits import GAITS, loads
-from gaitwright.bench.moments import LiveTrot
-from gaitwright.bench.session import Session
-from gaitwright.bench.sharing_oracles import Task, by_highs, by_quadprog
-from gaitwright.bench.tick import run_rounds
+from gaitwright.bench.claims import jumps, sharing
+from gaitwright.bench.claims.tick import run_rounds
+from gaitwright.bench.context import Session
+from gaitwright.bench.evidence import agreement
+from gaitwright.bench.evidence.agreement import KINDS, Tally, weakened
+from gaitwright.bench.evidence.gaits import GAITS, loads
+from gaitwright.bench.evidence.moments import LiveTrot
+from gaitwright.bench.evidence.sharing_oracles import Task, by_highs, by_quadprog
 from gaitwright.bench.workers import Workers
-from gaitwright.control.codes import INFEASIBLE, SOLVED
 from gaitwright.control.numerical import PLAIN
+from gaitwright.numerics.status import INFEASIBLE, SOLVED
 
 
 @pytest.fixture(scope="module")

@@ -11,17 +11,17 @@ import numpy as np
 import pytest
 
 from gaitwright import bench
-from gaitwright.bench import walks
-from gaitwright.bench.children import can_measure, measured
-from gaitwright.bench.figure import Figure, at_least, at_most, count
-from gaitwright.bench.session import Session
+from gaitwright.bench.claims import walks
+from gaitwright.bench.claims.walks import Walk, measure_walks
+from gaitwright.bench.context import Session
+from gaitwright.bench.evidence.children import can_measure, measured
+from gaitwright.bench.measurement import Figure, at_least, at_most, count
 from gaitwright.bench.trial import DT, Push, Pusher, Trial, brain_for, robot_named, simulate
-from gaitwright.bench.walks import Walk, measure_walks
 from gaitwright.bench.workers import Workers
 from gaitwright.errors import WrongUse
-from gaitwright.model.scene import load_scene
-from gaitwright.plant.simulation import MujocoPlant
-from gaitwright.recording import walk
+from gaitwright.ground.scene import load_scene
+from gaitwright.plant.mujoco.simulation import MujocoPlant
+from gaitwright.record.recording import walk
 from gaitwright.signals import Mission
 
 SHORT = Walk("go2", "trot", 0.4, seconds=2.0, starts=1, roll=2.5)
@@ -103,8 +103,8 @@ def test_an_unknown_name_is_told_with_what_there_is():
 
 
 def test_names_choose_claims_and_groups():
-    assert bench.claims(["tick", "walks"]) == [("spine", "walks"), ("spine", "tick")]
-    assert bench.claims([*bench.GROUPS, "tick"]) == bench.claims([])
+    assert bench.claims_named(["tick", "walks"]) == [("spine", "walks"), ("spine", "tick")]
+    assert bench.claims_named([*bench.GROUPS, "tick"]) == bench.claims([])
 
 
 def test_the_exit_code_tells_of_a_missed_figure(monkeypatch, tmp_path, capsys):

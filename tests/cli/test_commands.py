@@ -10,7 +10,7 @@ import pytest
 from gaitwright import bench
 from gaitwright.cli import console, main, trips
 from gaitwright.locomotion import Lap
-from gaitwright.recording import load
+from gaitwright.record.recording import load
 from gaitwright.skills.library import skill_names
 
 KEYS = {

@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 
 from gaitwright.cli import main
-from gaitwright.cli.asked_situation import asked, last_lessons, said, whatever
-from gaitwright.cli.explaining import told_history
+from gaitwright.cli.explain_text import told_history
+from gaitwright.cli.situation_args import asked, last_lessons, said, whatever
 from gaitwright.knowledge.consult import consult
+from gaitwright.knowledge.correction import teach
 from gaitwright.knowledge.forest import Forest, replace_value
-from gaitwright.knowledge.learn import Lesson, learn
+from gaitwright.knowledge.json_form import dumps
 from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.plain import dumps
+from gaitwright.knowledge.modifier import Lesson, learn
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.knowledge.teach import teach
 from gaitwright.knowledge.trees import interval_tree, tree
 
 FOREST = Forest(

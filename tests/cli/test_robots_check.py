@@ -9,11 +9,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from gaitwright.assess.suitability import (
+    Finding,
+    of_file,
+    of_motors,
+    of_stance,
+    runs,
+    suitability,
+    summary,
+    trials,
+)
 from gaitwright.cli import main
+from gaitwright.description.load import load_robot
 from gaitwright.model.robot import Robot
-from gaitwright.plant.models import load_robot
 from gaitwright.skills.library import find_skill
-from gaitwright.suitability import Finding, of_file, of_motors, of_stance, runs, suitability, summary, trials
 
 GO2 = load_robot("go2")
 

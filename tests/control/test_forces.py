@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gaitwright.bench.sharing_oracles import Task, by_quadprog
-from gaitwright.control.codes import INFEASIBLE, SOLVED
-from gaitwright.control.demand import Load, load_of
+from gaitwright.bench.evidence.sharing_oracles import Task, by_quadprog
 from gaitwright.control.forces import FRICTION, MOST_NORMAL, contact_frame, torques, unmet
+from gaitwright.control.inverse_dynamics import Load, load_of
+from gaitwright.numerics.status import INFEASIBLE, SOLVED
 from tasks import HEIGHT, WEIGHT, any_task
 
 seeds = st.integers(0, 2**32 - 1)

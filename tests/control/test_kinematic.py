@@ -11,12 +11,12 @@ from gaitwright.control.kinematic import KinematicController, wanted_rates
 from gaitwright.control.programmed import ProgrammedController, played
 from gaitwright.control.servo import NO_NUMBER, STIFF, servo
 from gaitwright.errors import WrongUse
-from gaitwright.gait.cycle import DesiredCycle, Manner, desired_cycle
+from gaitwright.gait.desired_cycle import DesiredCycle, Manner, desired_cycle
+from gaitwright.ground.scene import load_scene
 from gaitwright.locomotion import Brain, Controller
 from gaitwright.model.robot import Robot
-from gaitwright.model.scene import load_scene
-from gaitwright.plant.simulation import MujocoPlant
-from gaitwright.recording import Recording, walk
+from gaitwright.plant.mujoco.simulation import MujocoPlant
+from gaitwright.record.recording import Recording, walk
 from gaitwright.signals import Mission
 from gaitwright.skills.chooser import fixed_skill
 from gaitwright.skills.library import LIBRARY, find_skill, gait_of, speed_scale

@@ -8,15 +8,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gaitwright.bench.gaits import loads
-from gaitwright.bench.sharing_oracles import Task, by_highs
+from gaitwright.bench.evidence.gaits import loads
+from gaitwright.bench.evidence.sharing_oracles import Task, by_highs
 from gaitwright.bench.trial import Trial
 from gaitwright.control.certificate import linear_status_of
-from gaitwright.control.codes import INFEASIBLE, SOLVED
 from gaitwright.control.forces import contact_frame
 from gaitwright.control.linear import Shared
 from gaitwright.control.thesis_program import LinearSettings, settings_of
-from gaitwright.geometry import GRAVITY
+from gaitwright.numerics.geometry import GRAVITY
+from gaitwright.numerics.status import INFEASIBLE, SOLVED
 from oracles import robot_called
 from tasks import any_task
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gaitwright.control.demand import (
+from gaitwright.control.inverse_dynamics import (
     ATTITUDE,
     HORIZONTAL,
     MOST_ACCELERATION,
@@ -23,11 +23,11 @@ from gaitwright.control.demand import (
 )
 from gaitwright.control.moments import moment_of, row
 from gaitwright.control.numerical import LACKING, NumericalController, idle
-from gaitwright.geometry import GRAVITY, rotation, rotation_vector
+from gaitwright.ground.scene import load_scene
 from gaitwright.model.kinematics import angles, feet
 from gaitwright.model.robot import Robot
-from gaitwright.model.scene import load_scene
-from gaitwright.plant.simulation import MujocoPlant
+from gaitwright.numerics.geometry import GRAVITY, rotation, rotation_vector
+from gaitwright.plant.mujoco.simulation import MujocoPlant
 from gaitwright.signals import MotionTarget, Sensed
 from oracles import mujoco_foot_accelerations, mujoco_forward, robot_called
 

@@ -11,10 +11,10 @@ from gaitwright.control.numerical import NumericalController
 from gaitwright.control.stream import CHUNK, Efforts, Job, stream
 from gaitwright.control.thesis_program import LinearSettings
 from gaitwright.errors import WrongUse
+from gaitwright.ground.scene import load_scene
 from gaitwright.locomotion import Brain, Lap, trip
 from gaitwright.model.robot import Robot
-from gaitwright.model.scene import load_scene
-from gaitwright.plant.simulation import MujocoPlant
+from gaitwright.plant.mujoco.simulation import MujocoPlant
 from gaitwright.signals import Mission, Torques
 from gaitwright.skills.chooser import fixed_skill
 from oracles import robot_called

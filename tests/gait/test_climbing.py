@@ -10,19 +10,19 @@ from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
 from gaitwright.errors import WrongUse
-from gaitwright.gait.climb_checks import balance_room, checked, links
-from gaitwright.gait.climb_motion import motion
-from gaitwright.gait.climber import Climber, climb_call
-from gaitwright.gait.climbing import Ascent, climb, foothold, order_of
-from gaitwright.gait.support import hull, leaned, margins
-from gaitwright.geometry import quaternion_of
+from gaitwright.gait.climb.checks import balance_room, checked, links
+from gaitwright.gait.climb.climber import Climber, climb_call
+from gaitwright.gait.climb.motion import motion
+from gaitwright.gait.climb.plan import Ascent, climb, foothold, order_of
+from gaitwright.ground.layouts import flight, stairway
+from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.locomotion import Brain
 from gaitwright.model.kinematics import feet
-from gaitwright.model.layouts import flight, stairway
-from gaitwright.model.scene import Scene, load_scene
+from gaitwright.numerics.geometry import quaternion_of
+from gaitwright.numerics.polygon import hull, leaned, margins
 from gaitwright.plant.closure import Closure
 from gaitwright.plant.kinematic import KinematicPlant
-from gaitwright.recording import walk
+from gaitwright.record.recording import walk
 from gaitwright.signals import Mission, Sensed
 from gaitwright.skills.chooser import Fixed
 from oracles import robot_called

@@ -7,12 +7,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from gaitwright.gait.command import POSITION_LEASH, SLEW, TURN_SLEW, YAW_LEASH
 from gaitwright.gait.coordinator import Coordinator
-from gaitwright.gait.posture import POSITION_LEASH, SLEW, TURN_SLEW, YAW_LEASH
 from gaitwright.gait.state import GaitMemory, state_of
-from gaitwright.geometry import GRAVITY, heading, quaternion_of, rotation, wrap, yaw_quaternion
 from gaitwright.model.kinematics import angles, feet
 from gaitwright.model.robot import Robot
+from gaitwright.numerics.geometry import GRAVITY, heading, quaternion_of, rotation, wrap, yaw_quaternion
 from gaitwright.signals import MotionTarget, Sensed, SkillCall
 from gaitwright.skills.library import LIBRARY, MANY_LEGGED, gait_of
 from oracles import robot_called

@@ -7,7 +7,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gaitwright.gait.cycle_file import load_cycle
 from gaitwright.gait.footholds import (
     CLEAR,
     LOOKS,
@@ -20,9 +19,10 @@ from gaitwright.gait.footholds import (
     is_on_ground,
     lift_needed,
 )
-from gaitwright.gait.leg_cycle import tabulated
-from gaitwright.model.footing import Footing, height_at, nearest
-from gaitwright.model.scene import load_scene
+from gaitwright.gait.leg_cycles.files import load_cycle
+from gaitwright.gait.leg_cycles.leg_cycle import tabulated
+from gaitwright.ground.foothold_map import Footing, height_at, nearest
+from gaitwright.ground.scene import load_scene
 from oracles import robot_called
 
 DOG = robot_called("dog")

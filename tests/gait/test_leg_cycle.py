@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 from scipy.interpolate import BPoly, PchipInterpolator, make_interp_spline
 
 from gaitwright.errors import WrongUse
-from gaitwright.gait.cycle import Manner, desired_cycle
-from gaitwright.gait.cycle_check import CLEAR, JOINT_SPEED, check_cycle, swing_of
-from gaitwright.gait.cycle_file import cycle_of, load_cycle
-from gaitwright.gait.leg_cycle import (
+from gaitwright.gait.desired_cycle import Manner, desired_cycle
+from gaitwright.gait.leg_cycles.check import CLEAR, JOINT_SPEED, check_cycle, swing_of
+from gaitwright.gait.leg_cycles.files import cycle_of, load_cycle
+from gaitwright.gait.leg_cycles.leg_cycle import (
     NEAREST,
     LegCycle,
     Point,
@@ -23,10 +23,10 @@ from gaitwright.gait.leg_cycle import (
     tabulated,
     tabulated_legs,
 )
-from gaitwright.gait.shape_preserving import curve, limited, monotone, shape_preserving, spline
 from gaitwright.gait.swing import CLEARANCE, bump, smooth
 from gaitwright.model.kinematics import feet
 from gaitwright.model.robot import Robot
+from gaitwright.numerics.shape_preserving import curve, limited, monotone, shape_preserving, spline
 from gaitwright.skills.library import find_skill, gait_of, speed_scale
 from oracles import robot_called
 from robots_by_hand import dog

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gaitwright.gait.posture import sample
+from gaitwright.gait.command import sample
 from gaitwright.gait.reference import BINS, integrate_periodic, periodic_reference
-from gaitwright.geometry import GRAVITY
+from gaitwright.numerics.geometry import GRAVITY
 from gaitwright.signals import Gait
 from gaitwright.skills.library import LIBRARY, gait_of
 from oracles import robot_called

@@ -6,10 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gaitwright.errors import WrongUse
-from gaitwright.gait.ground import Plane
+from gaitwright.gait.contact_plane import Plane
 from gaitwright.gait.regulation import LEVEL, Regulation, regulate
-from gaitwright.geometry import from_thesis, roll_pitch_yaw
 from gaitwright.model.kinematics import angles, feet
+from gaitwright.numerics.geometry import from_thesis, roll_pitch_yaw
 from oracles import robot_called
 
 seeds = st.integers(0, 2**32 - 1)

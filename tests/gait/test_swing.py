@@ -6,8 +6,8 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gaitwright.gait.cycle_file import load_cycle
-from gaitwright.gait.leg_cycle import tabulated
+from gaitwright.gait.leg_cycles.files import load_cycle
+from gaitwright.gait.leg_cycles.leg_cycle import tabulated
 from gaitwright.gait.swing import (
     AIM_BELOW,
     CLEARANCE,
@@ -22,7 +22,7 @@ from gaitwright.gait.swing import (
     swing_reference,
     touchdown,
 )
-from gaitwright.geometry import GRAVITY, rotation, yaw_quaternion
+from gaitwright.numerics.geometry import GRAVITY, rotation, yaw_quaternion
 
 HEIGHT, DURATION = 0.3, 0.16
 TABLE = tabulated(load_cycle("trot"), bins=4096)

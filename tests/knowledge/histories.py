@@ -7,9 +7,9 @@ import numpy as np
 from random_books import is_below, random_forest, random_situation
 
 from gaitwright.knowledge.forest import Forest, Situation
-from gaitwright.knowledge.learn import Lesson, audit, learn
 from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.mend import mend
+from gaitwright.knowledge.modifier import Lesson, audit, learn
+from gaitwright.knowledge.repair import mend
 from gaitwright.knowledge.rules import Rule, Rulebook
 
 Taught = list[tuple[bool, Situation]]

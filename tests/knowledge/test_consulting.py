@@ -7,13 +7,13 @@ import pytest
 from random_books import is_below, random_book, random_forest, random_situation
 
 from gaitwright.errors import WrongUse
+from gaitwright.knowledge.compiled import compile_book, decide, decide_leaves, decide_many
 from gaitwright.knowledge.consult import consult
+from gaitwright.knowledge.correction import prefer, relapses, teach
 from gaitwright.knowledge.forest import Forest, replace_value
-from gaitwright.knowledge.learn import Lesson, audit, learn
-from gaitwright.knowledge.masks import compile_book, decide, decide_leaves, decide_many
 from gaitwright.knowledge.memory import Action
+from gaitwright.knowledge.modifier import Lesson, audit, learn
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.knowledge.teach import prefer, relapses, teach
 from gaitwright.knowledge.trees import tree
 
 FOREST = Forest(

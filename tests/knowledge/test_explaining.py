@@ -10,14 +10,14 @@ from random_books import random_book, random_forest, random_situation
 from gaitwright.errors import WrongUse
 from gaitwright.knowledge.analogy import confirm, mirrored
 from gaitwright.knowledge.consult import consult
+from gaitwright.knowledge.correction import teach
 from gaitwright.knowledge.counterfactual import counterfactual
 from gaitwright.knowledge.explain import forest_text, history, rule_line, why, why_not
 from gaitwright.knowledge.forest import Forest
-from gaitwright.knowledge.learn import Lesson, audit, learn
+from gaitwright.knowledge.json_form import dumps, loads
 from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.plain import dumps, loads
+from gaitwright.knowledge.modifier import Lesson, audit, learn
 from gaitwright.knowledge.rules import Marks, Rulebook, status
-from gaitwright.knowledge.teach import teach
 from gaitwright.knowledge.trees import interval_tree, tree
 
 FOREST = Forest(

@@ -10,8 +10,8 @@ from gaitwright.errors import WrongUse
 from gaitwright.knowledge.discriminate import discriminate, grey_trees
 from gaitwright.knowledge.forest import Forest
 from gaitwright.knowledge.generalise import generalise
-from gaitwright.knowledge.learn import Lesson, learn
 from gaitwright.knowledge.memory import Action
+from gaitwright.knowledge.modifier import Lesson, learn
 from gaitwright.knowledge.rules import QUIET, Choice, Marks, Rulebook, outside, status
 from gaitwright.knowledge.trees import tree
 

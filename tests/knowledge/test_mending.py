@@ -5,10 +5,10 @@ import pytest
 from gaitwright.knowledge.consult import consult
 from gaitwright.knowledge.features import accept, propose_features, round_between
 from gaitwright.knowledge.forest import Forest
-from gaitwright.knowledge.learn import Lesson, audit, learn
+from gaitwright.knowledge.json_form import dumps, loads
 from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.mend import mend
-from gaitwright.knowledge.plain import dumps, loads
+from gaitwright.knowledge.modifier import Lesson, audit, learn
+from gaitwright.knowledge.repair import mend
 from gaitwright.knowledge.rules import Marks, Rulebook
 from gaitwright.knowledge.trees import interval_tree, tree
 

@@ -8,11 +8,11 @@ from histories import run_histories
 from random_books import random_forest, random_situation
 
 from gaitwright.errors import BadFile
-from gaitwright.knowledge.learn import Lesson
+from gaitwright.knowledge.correction import teach
+from gaitwright.knowledge.json_form import dumps, from_plain, loads, to_plain
 from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.plain import dumps, from_plain, loads, to_plain
+from gaitwright.knowledge.modifier import Lesson
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.knowledge.teach import teach
 
 
 def taught_book(seed: int) -> Rulebook:

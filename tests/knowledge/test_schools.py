@@ -8,11 +8,11 @@ import pytest
 from random_books import random_book, random_forest
 
 from gaitwright.knowledge.consult import consult
-from gaitwright.knowledge.learn import Lesson, audit
+from gaitwright.knowledge.correction import relapses, teach
 from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.mend import mend
+from gaitwright.knowledge.modifier import Lesson, audit
+from gaitwright.knowledge.repair import mend
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.knowledge.teach import relapses, teach
 
 PASSES = 12
 

@@ -2,10 +2,10 @@
 
 from gaitwright.knowledge.analogy import confirm
 from gaitwright.knowledge.consult import consult
-from gaitwright.knowledge.learn import Lesson
+from gaitwright.knowledge.correction import teach
 from gaitwright.knowledge.memory import Action
+from gaitwright.knowledge.modifier import Lesson
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.knowledge.teach import teach
 from gaitwright.learning.analogies import proposals
 from gaitwright.skills.situation import FOREST
 

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gaitwright.knowledge.consult import consult
-from gaitwright.knowledge.learn import audit
 from gaitwright.knowledge.memory import Action
+from gaitwright.knowledge.modifier import audit
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.learning.apprentice import confirmed, corrected, step_of, study
 from gaitwright.learning.critic import Moment, Step, criticise

@@ -4,7 +4,8 @@ from functools import cache
 
 import numpy as np
 
-from gaitwright.knowledge.learn import audit
+from gaitwright.ground.scene import load_scene
+from gaitwright.knowledge.modifier import audit
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.learning.apprentice import study
 from gaitwright.learning.exam import ASIDE, faults, held_out, is_right, right_share, trial, variants
@@ -12,8 +13,7 @@ from gaitwright.learning.school import attend, demonstrate, demonstrations
 from gaitwright.learning.teacher import POLICY, ScriptedTeacher
 from gaitwright.learning.trips import trips
 from gaitwright.locomotion import Brain, think
-from gaitwright.model.scene import load_scene
-from gaitwright.plant.simulation import MujocoPlant
+from gaitwright.plant.mujoco.simulation import MujocoPlant
 from gaitwright.signals import Mission
 from gaitwright.skills.situation import FOREST
 from oracles import robot_called

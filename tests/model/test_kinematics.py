@@ -9,7 +9,6 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from gaitwright.errors import WrongUse
-from gaitwright.geometry import rotation, wrap
 from gaitwright.model.catalogue import robot_names
 from gaitwright.model.kinematics import (
     BRANCHES,
@@ -27,6 +26,7 @@ from gaitwright.model.kinematics import (
     to_leg,
 )
 from gaitwright.model.reach import BEYOND_LIMIT, poses, reach
+from gaitwright.numerics.geometry import rotation, wrap
 from oracles import robot_called, unlike
 
 CLEAR = 0.05

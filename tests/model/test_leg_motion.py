@@ -8,9 +8,8 @@ import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
+from gaitwright.dynamics.newton_euler import solve_columns
 from gaitwright.errors import WrongUse
-from gaitwright.geometry import from_thesis, rotation
-from gaitwright.model.dynamics.newton_euler import solve_columns
 from gaitwright.model.kinematics import angles, branches, feet, leg_points_and_jacobian
 from gaitwright.model.leg_motion import (
     AXIS_SHARE,
@@ -28,6 +27,7 @@ from gaitwright.model.leg_motion import (
 )
 from gaitwright.model.reach import KNEE_FOLDED, KNEE_STRAIGHT, UNDER_AXIS, poses
 from gaitwright.model.robot import Robot
+from gaitwright.numerics.geometry import from_thesis, rotation
 from oracles import any_state, bare_world, mujoco_foot_accelerations, put, robot_called, unlike
 
 fewer = settings(max_examples=50)

@@ -5,13 +5,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from gaitwright.description.load import load_robot
+from gaitwright.description.validate import check
 from gaitwright.errors import WrongUse
-from gaitwright.geometry import GRAVITY
 from gaitwright.model.kinematics import angles, feet
 from gaitwright.model.perturb import perturbed, stretched
 from gaitwright.model.robot import Robot
-from gaitwright.plant.checks import check
-from gaitwright.plant.models import load_robot
+from gaitwright.numerics.geometry import GRAVITY
 
 NAMES = ("go2", "thesis", "hexapod")
 SEEDS = st.integers(0, 2**32)

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from gaitwright.geometry import GRAVITY
 from gaitwright.model.robot import unpacked
+from gaitwright.numerics.geometry import GRAVITY
 from oracles import robot_called
 
 NAMES = pytest.mark.parametrize("name", ["dog", "insect", "go2", "thesis", "hexapod"])

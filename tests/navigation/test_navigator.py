@@ -8,8 +8,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from shapely import Point, Polygon
 
-from gaitwright.model.scene import Scene
-from gaitwright.model.terrain import Box, Flat
+from gaitwright.ground.scene import Scene
+from gaitwright.ground.terrain import Box, Flat
 from gaitwright.navigation.navigator import ARRIVED, PASSED, STOP_AT, Navigator
 from gaitwright.signals import Mission, Sensed
 from robots_by_hand import dog

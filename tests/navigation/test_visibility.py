@@ -11,8 +11,8 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 from shapely import LineString, Point
 
-from gaitwright.model.scene import Scene, load_scene
-from gaitwright.model.terrain import Box, Flat
+from gaitwright.ground.scene import Scene, load_scene
+from gaitwright.ground.terrain import Box, Flat
 from gaitwright.navigation.obstacles import PlanView, half_width, plan_view
 from gaitwright.navigation.visibility import length, shortest_path
 from robots_by_hand import dog

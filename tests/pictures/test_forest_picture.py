@@ -6,12 +6,12 @@ import matplotlib.image
 import numpy as np
 import pytest
 
-from gaitwright.bench.random_schools import RandomSchool
+from gaitwright.bench.evidence.random_schools import RandomSchool
 from gaitwright.errors import WrongUse
 from gaitwright.knowledge.consult import consult
 from gaitwright.knowledge.forest import Forest
-from gaitwright.knowledge.learn import Lesson, learn
 from gaitwright.knowledge.memory import Action
+from gaitwright.knowledge.modifier import Lesson, learn
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.knowledge.trees import tree
 from gaitwright.pictures.forest import bands, box_width, forest_picture, leaf_span, two_lines

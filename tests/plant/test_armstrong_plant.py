@@ -13,25 +13,25 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gaitwright.cli import main
+from gaitwright.dynamics.tree_laws import energy
 from gaitwright.errors import WrongUse
-from gaitwright.geometry import GRAVITY, rotation
+from gaitwright.ground.scene import Scene, load_scene
+from gaitwright.ground.terrain import Box, Flat
 from gaitwright.locomotion import Brain
-from gaitwright.model.dynamics.tree_laws import energy
-from gaitwright.model.scene import Scene, load_scene
-from gaitwright.model.terrain import Box, Flat
+from gaitwright.numerics.geometry import GRAVITY, rotation
 from gaitwright.plant.armstrong.build import any_poses, stance_pose, state_of, system_of
 from gaitwright.plant.armstrong.contact import NOWHERE, SLOTS, contact_forces
-from gaitwright.plant.armstrong.ground import Ground
 from gaitwright.plant.armstrong.integrators import METHODS, advance
 from gaitwright.plant.armstrong.joints import guides, hinge_states, relative, worst_sag
 from gaitwright.plant.armstrong.rotors import newton_matrix
 from gaitwright.plant.armstrong.simulation import ArmstrongPlant
 from gaitwright.plant.armstrong.stiffness import row_mobility, stiffest_mode
 from gaitwright.plant.armstrong.system import at_rest, mobility_of_hinges, parts, rotations
-from gaitwright.plant.choose import make_plant
+from gaitwright.plant.armstrong.touch_planes import Ground
 from gaitwright.plant.closure import Closure
-from gaitwright.plant.simulation import MujocoPlant
-from gaitwright.recording import Recording, walk
+from gaitwright.plant.mujoco.simulation import MujocoPlant
+from gaitwright.plant.registry import make_plant
+from gaitwright.record.recording import Recording, walk
 from gaitwright.signals import Mission, Torques
 from gaitwright.skills.chooser import fixed_skill
 from gaitwright.skills.library import LIBRARY, speed_scale
@@ -134,8 +134,8 @@ def test_older_slow_coefficients_move_it_almost_alike() -> None:
 def test_it_needs_no_mujoco() -> None:
     program = (
         "import sys; sys.path[:0] = sys.argv[1:]\n"
-        "from gaitwright.model.scene import load_scene\n"
-        "from gaitwright.plant.choose import make_plant\n"
+        "from gaitwright.ground.scene import load_scene\n"
+        "from gaitwright.plant.registry import make_plant\n"
         "from robots_by_hand import dog\n"
         "plant = make_plant('armstrong', dog(), load_scene('flat'))\n"
         "print(plant.reset(1).is_finite(), 'mujoco' in sys.modules)"

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from gaitwright.dynamics.tree import Tree, ball_tree
 from gaitwright.errors import WrongUse
-from gaitwright.model.dynamics.tree import Tree, ball_tree
 from gaitwright.plant.armstrong.drift import (
     any_free_state,
     free_motion_drift,
@@ -18,7 +18,7 @@ from gaitwright.plant.armstrong.drift import (
 )
 from gaitwright.plant.armstrong.integrators import METHODS, advance, method_named
 from gaitwright.plant.armstrong.system import at_rest, floating, parts
-from gaitwright.plant.offers import INTEGRATORS
+from gaitwright.plant.names import INTEGRATORS
 from oracles import robot_called
 
 

@@ -7,14 +7,14 @@ import pytest
 
 from gaitwright.control.numerical import idle
 from gaitwright.errors import WrongUse
-from gaitwright.geometry import rotation
+from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.locomotion import Brain, Plant, think
 from gaitwright.model.kinematics import feet
 from gaitwright.model.robot import Robot
-from gaitwright.model.scene import Scene, load_scene
-from gaitwright.plant.choose import SimulatedPlant, make_plant
+from gaitwright.numerics.geometry import rotation
 from gaitwright.plant.kinematic import KinematicPlant
-from gaitwright.recording import Recording, walk
+from gaitwright.plant.registry import SimulatedPlant, make_plant
+from gaitwright.record.recording import Recording, walk
 from gaitwright.signals import Mission, Sensed, Torques
 from gaitwright.skills.chooser import fixed_skill
 from gaitwright.skills.library import skill_names

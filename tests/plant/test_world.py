@@ -8,13 +8,13 @@ import mujoco
 import numpy as np
 import pytest
 
+from gaitwright.ground.scene import Scene, load_scene
+from gaitwright.ground.terrain import Box, Slope, Surface
 from gaitwright.model.kinematics import angles, feet
 from gaitwright.model.robot import Robot
-from gaitwright.model.scene import Scene, load_scene
-from gaitwright.model.terrain import Box, Slope, Surface
-from gaitwright.plant import ground
-from gaitwright.plant.mjcf import child
-from gaitwright.plant.world import build_world
+from gaitwright.plant.mujoco import terrain_geoms as ground
+from gaitwright.plant.mujoco.mjcf import child
+from gaitwright.plant.mujoco.world import build_world
 from robots_by_hand import dog, insect
 
 ROBOTS = pytest.mark.parametrize("robot", [dog(), insect()], ids=["dog", "insect"])

@@ -12,10 +12,10 @@ from scipy.optimize import linprog
 
 from gaitwright import reproduce
 from gaitwright.cli import main
-from gaitwright.control.demand import load_of, packed_load
+from gaitwright.control.inverse_dynamics import load_of, packed_load
 from gaitwright.errors import WrongUse
-from gaitwright.geometry import GRAVITY, from_thesis
 from gaitwright.model.kinematics import feet
+from gaitwright.numerics.geometry import GRAVITY, from_thesis
 from gaitwright.reproduce import table_6_1, table_6_2
 from gaitwright.reproduce.claim import Claim, Grid, Reproduction
 from gaitwright.reproduce.gaits import DIAGONAL, LATERAL, cycle_of, on_all_fours, trot, walk

@@ -9,7 +9,7 @@ from time import perf_counter
 import numpy as np
 from schooling import truthful_lesson
 
-from gaitwright.knowledge.teach import teach
+from gaitwright.knowledge.correction import teach
 from gaitwright.skillbook import Skillbook, open_for_learning
 from knowledge.random_books import random_book, random_forest
 

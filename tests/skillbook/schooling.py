@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 
 from gaitwright.knowledge.consult import consult
+from gaitwright.knowledge.correction import teach
 from gaitwright.knowledge.forest import Forest
-from gaitwright.knowledge.learn import Lesson
 from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.mend import mend
+from gaitwright.knowledge.modifier import Lesson
+from gaitwright.knowledge.repair import mend
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.knowledge.teach import teach
 from gaitwright.skillbook import Skillbook
 from gaitwright.skillbook.history import Step, settled
 from knowledge.random_books import random_book, random_forest, random_situation

@@ -10,11 +10,11 @@ from schooling import random_lesson, stepped, taught_skillbook
 
 from gaitwright.errors import BadFile, WrongUse
 from gaitwright.knowledge.analogy import mirrored
+from gaitwright.knowledge.correction import teach
 from gaitwright.knowledge.features import accept, propose_features
 from gaitwright.knowledge.forest import Forest
-from gaitwright.knowledge.learn import Lesson
 from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.teach import teach
+from gaitwright.knowledge.modifier import Lesson
 from gaitwright.knowledge.trees import tree
 from gaitwright.skillbook import Skillbook, content_hash, export_text, import_text, open_for_learning
 from gaitwright.skillbook.history import Step

@@ -11,10 +11,11 @@ import pytest
 from schooling import random_lesson, taught_skillbook
 
 import gaitwright
-from gaitwright.bench.kills import Tally, kill_through
+from gaitwright.bench.claims.kills import Tally, kill_through
 from gaitwright.errors import BadFile, WrongUse
-from gaitwright.knowledge.teach import teach
-from gaitwright.skillbook import Skillbook, ledger, open_for_learning
+from gaitwright.knowledge.correction import teach
+from gaitwright.skillbook import Skillbook, open_for_learning
+from gaitwright.skillbook import writer as ledger
 
 SOURCE = str(Path(gaitwright.__file__).parents[1])
 

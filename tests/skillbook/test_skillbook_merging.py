@@ -12,12 +12,13 @@ from gaitwright.errors import WrongUse
 from gaitwright.knowledge.analogy import confirm, mirrored
 from gaitwright.knowledge.consult import consult
 from gaitwright.knowledge.forest import Forest
-from gaitwright.knowledge.learn import Lesson, audit
 from gaitwright.knowledge.memory import Action
+from gaitwright.knowledge.modifier import Lesson, audit
 from gaitwright.knowledge.trees import tree
-from gaitwright.skillbook import Skillbook, export_text, import_text, merge
+from gaitwright.skillbook import Skillbook, export_text, import_text
 from gaitwright.skillbook.history import Step
-from gaitwright.skillbook.settling import follows
+from gaitwright.skillbook.merging import merge
+from gaitwright.skillbook.merging.check import follows
 
 SEEDS = st.integers(0, 1 << 30)
 GROUND = tree("ground", ("flat", "grass", "stairs"))

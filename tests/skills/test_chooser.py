@@ -8,7 +8,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from gaitwright.errors import WrongUse
-from gaitwright.geometry import wrap, yaw_quaternion
+from gaitwright.numerics.geometry import wrap, yaw_quaternion
 from gaitwright.signals import Route, Sensed, SkillCall
 from gaitwright.skills.chooser import KEEP_TURNING, TURN_FIRST, PlainChooser, fixed_skill
 from gaitwright.skills.library import LIBRARY, MANY_LEGGED, fastest, gait_of, speed_scale

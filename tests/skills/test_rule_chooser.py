@@ -10,11 +10,11 @@ from test_chooser import DOG, angles, places, route, sensed
 
 from gaitwright.errors import WrongUse
 from gaitwright.knowledge.consult import consult
+from gaitwright.knowledge.correction import teach
 from gaitwright.knowledge.forest import Forest
-from gaitwright.knowledge.learn import Lesson, learn
 from gaitwright.knowledge.memory import Action
+from gaitwright.knowledge.modifier import Lesson, learn
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.knowledge.teach import teach
 from gaitwright.knowledge.trees import tree
 from gaitwright.signals import Scan
 from gaitwright.skills.chooser import PlainChooser

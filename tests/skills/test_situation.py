@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from test_chooser import DOG, route, sensed
 
-from gaitwright.geometry import GRAVITY, rotation
 from gaitwright.knowledge.memory import Action
 from gaitwright.model.kinematics import angles, feet
+from gaitwright.numerics.geometry import GRAVITY, rotation
 from gaitwright.signals import Scan
 from gaitwright.skills.library import LIBRARY, gait_of
 from gaitwright.skills.rule_chooser import carried_out

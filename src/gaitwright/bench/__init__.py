@@ -28,13 +28,13 @@ def run(
     what was finished. `workers`: processes that simulate side by side (one for each core); figures of walks
     do not depend on it. Raises `WrongUse` for a name that does not exist.
     """
-    asked = claims(names)
+    asked = claims_named(names)
     from gaitwright.bench.runs import measure_claims  # noqa: PLC0415 - heavy: names first
 
     return measure_claims(asked, quick, json_path, seed, workers)
 
 
-def claims(names: list[str]) -> list[tuple[str, str]]:
+def claims_named(names: list[str]) -> list[tuple[str, str]]:
     """(group, claim) of everything that the names ask for, each once, in the order of `GROUPS`."""
     everything = [(group, claim) for group, members in GROUPS.items() for claim in members]
     known = dict.fromkeys([*GROUPS, *(claim for _, claim in everything)])

@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 from importlib import import_module
 
-from gaitwright.bench.figure import Figure
+from gaitwright.bench.context import Session
 from gaitwright.bench.machine import machine
-from gaitwright.bench.session import Session
+from gaitwright.bench.measurement import Figure
 from gaitwright.bench.table import Result, Section, show, write
 from gaitwright.bench.workers import Workers
 
@@ -39,7 +39,7 @@ def measure_claims(
 
 def measure_claim(session: Session, group: str, claim: str, sections: list[Section]) -> None:
     """Adds a claim's section, which fills while it is measured."""
-    module = import_module(f"gaitwright.bench.{claim}")
+    module = import_module(f"gaitwright.bench.claims.{claim}")
     figures: list[Figure] = []  # filled one by one: an interrupt keeps what is there
     sections.append(Section(claim, group, figures, getattr(module, "NOTE", "")))
     for figure in module.measure(session):

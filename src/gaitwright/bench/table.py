@@ -12,8 +12,8 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from gaitwright.bench.figure import Figure
 from gaitwright.bench.machine import line
+from gaitwright.bench.measurement import Figure
 from gaitwright.files import whole
 
 WIDE = 180

@@ -10,15 +10,15 @@ from typing import Any
 import numpy as np
 
 from gaitwright.control.numerical import Method
-from gaitwright.figures import Report
-from gaitwright.geometry import heading, rotation
+from gaitwright.description.load import load_robot
+from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.locomotion import Brain, Lap
 from gaitwright.model.perturb import perturbed
 from gaitwright.model.robot import Robot
-from gaitwright.model.scene import Scene, load_scene
-from gaitwright.plant.choose import SimulatedPlant, make_plant
-from gaitwright.plant.models import load_robot
-from gaitwright.recording import INTERRUPTED, Recording, walk
+from gaitwright.numerics.geometry import heading, rotation
+from gaitwright.plant.registry import SimulatedPlant, make_plant
+from gaitwright.record.metrics import Report
+from gaitwright.record.recording import INTERRUPTED, Recording, walk
 from gaitwright.signals import Mission, Route, Sensed, SkillCall
 from gaitwright.skills.chooser import fixed_skill
 

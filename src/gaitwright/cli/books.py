@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from gaitwright.errors import BadFile
-from gaitwright.knowledge.plain import MAX_BYTES, loads
+from gaitwright.knowledge.json_form import MAX_BYTES, loads
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.skillbook.book import Skillbook
 

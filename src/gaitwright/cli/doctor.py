@@ -125,7 +125,7 @@ def kernels(before: list[Finding]) -> Finding:
     """Whether the kernels are compiled; asked only where their compiler is there."""
     if any(not finding.fine and finding.needed for finding in before):
         return Finding("kernels", "not looked at", True)
-    compiled = import_module("gaitwright.compiled")
+    compiled = import_module("gaitwright.numerics.compiled")
     state = (
         "compiled" if compiled.is_warm() else "not compiled yet; the first run does it, in a minute or two"
     )

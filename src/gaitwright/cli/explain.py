@@ -8,10 +8,9 @@ from dataclasses import asdict
 from importlib import import_module
 from pathlib import Path
 
-from gaitwright.cli.asked_situation import Asked, asked, said, whatever
 from gaitwright.cli.books import rulebook_of
 from gaitwright.cli.console import console, remark, show_pairs, show_table, working
-from gaitwright.cli.explaining import (
+from gaitwright.cli.explain_text import (
     because,
     changes,
     facts_of,
@@ -25,6 +24,7 @@ from gaitwright.cli.explaining import (
     verdict,
 )
 from gaitwright.cli.output import check_json, write_json
+from gaitwright.cli.situation_args import Asked, asked, said, whatever
 from gaitwright.errors import WrongUse
 from gaitwright.knowledge.consult import Decision, consult
 from gaitwright.knowledge.explain import forest_text

@@ -9,7 +9,7 @@ import difflib
 import re
 from typing import NamedTuple, NoReturn
 
-from gaitwright.cli.words import (
+from gaitwright.cli.arg_types import (
     DRIVERS,
     count,
     distribution,
@@ -23,7 +23,7 @@ from gaitwright.cli.words import (
     seed,
 )
 from gaitwright.errors import WrongUse, unknown
-from gaitwright.plant.offers import INTEGRATORS, PLANTS
+from gaitwright.plant.names import INTEGRATORS, PLANTS
 
 
 class Command(NamedTuple):

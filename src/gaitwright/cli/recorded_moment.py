@@ -3,9 +3,9 @@
 import numpy as np
 
 from gaitwright.errors import WrongUse
-from gaitwright.figures import attitude
 from gaitwright.knowledge.memory import Memory, remembered
-from gaitwright.recording import load
+from gaitwright.record.metrics import attitude
+from gaitwright.record.recording import load
 
 
 def recorded_facts(path: str, at: float | None) -> tuple[float, Memory]:

@@ -10,14 +10,14 @@ from time import perf_counter
 
 import numpy as np
 
+from gaitwright.assess.suitability import Finding, runs, suitability, summary
 from gaitwright.cli.console import EVERY, console, remark, show_table, working
 from gaitwright.cli.output import check_json, write_json
-from gaitwright.compiled import is_warm
+from gaitwright.description.load import load_robot, load_robot_and_notes
 from gaitwright.errors import BadFile
 from gaitwright.model.catalogue import ROBOTS
 from gaitwright.model.robot import Robot
-from gaitwright.plant.models import load_robot, load_robot_and_notes
-from gaitwright.suitability import Finding, runs, suitability, summary
+from gaitwright.numerics.compiled import is_warm
 
 HEAD = ("name", "legs", "mass", "height", "leg", "torque limits", "about")
 NEEDED = (

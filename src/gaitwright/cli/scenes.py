@@ -5,7 +5,7 @@ from argparse import Namespace
 
 from gaitwright.cli.console import show_table
 from gaitwright.cli.output import check_json, write_json
-from gaitwright.model.scenes_list import OFFERS
+from gaitwright.ground.scenes_list import OFFERS
 
 
 def run(args: Namespace) -> int:

@@ -4,20 +4,20 @@ import math
 from argparse import Namespace
 from dataclasses import dataclass, replace
 
+from gaitwright.assess.motor_requirements import HOPELESS, shortage, too_wide
 from gaitwright.cli import trips
 from gaitwright.cli.console import remark, working
 from gaitwright.errors import WrongUse
-from gaitwright.gait.climber import Climber, climb_call
-from gaitwright.gait.climbing import climb
+from gaitwright.gait.climb.climber import Climber, climb_call
+from gaitwright.gait.climb.plan import climb
 from gaitwright.gait.coordinator import Coordinator
-from gaitwright.gait.cycle_file import load_cycle
-from gaitwright.gait.leg_cycle import LegCycle
-from gaitwright.geometry import heading, rotation
+from gaitwright.gait.leg_cycles.files import load_cycle
+from gaitwright.gait.leg_cycles.leg_cycle import LegCycle
+from gaitwright.ground.scene import Scene
 from gaitwright.locomotion import Brain, Lap
 from gaitwright.model.robot import Robot
-from gaitwright.model.scene import Scene
-from gaitwright.needs import HOPELESS, shortage, too_wide
-from gaitwright.plant.choose import SimulatedPlant
+from gaitwright.numerics.geometry import heading, rotation
+from gaitwright.plant.registry import SimulatedPlant
 from gaitwright.signals import Mission, SkillCall
 from gaitwright.skills.chooser import Fixed, fixed_skill
 from gaitwright.skills.library import fastest, find_skill

@@ -10,9 +10,9 @@ from gaitwright.cli.console import remark, show_table, working
 from gaitwright.cli.output import check_json, write_json
 from gaitwright.cli.trips import find_robot, has
 from gaitwright.errors import WrongUse
-from gaitwright.gait.cycle_check import Fault, check_cycle
-from gaitwright.gait.cycle_file import cycle_of, load_cycle
-from gaitwright.gait.leg_cycle import LegCycle
+from gaitwright.gait.leg_cycles.check import Fault, check_cycle
+from gaitwright.gait.leg_cycles.files import cycle_of, load_cycle
+from gaitwright.gait.leg_cycles.leg_cycle import LegCycle
 from gaitwright.model.robot import Robot
 from gaitwright.skills.library import fastest, find_skill, gait_of, skill_names, speed_scale
 

@@ -10,7 +10,7 @@ from gaitwright.cli.console import remark, show_pairs, working
 from gaitwright.cli.output import check_json, write_json
 from gaitwright.cli.trips import find_robot
 from gaitwright.errors import WrongUse
-from gaitwright.knowledge.learn import Learned
+from gaitwright.knowledge.modifier import Learned
 from gaitwright.knowledge.rules import Rulebook, status
 from gaitwright.learning.analogies import proposals
 from gaitwright.learning.exam import held_out, right_share
@@ -19,7 +19,7 @@ from gaitwright.learning.school import Schooled, attend
 from gaitwright.learning.teacher import ScriptedTeacher
 from gaitwright.model.robot import Robot
 from gaitwright.skillbook.book import Skillbook
-from gaitwright.skillbook.ledger import Ledger, open_for_learning
+from gaitwright.skillbook.writer import Ledger, open_for_learning
 from gaitwright.skills.situation import FOREST
 
 EXAM = 200

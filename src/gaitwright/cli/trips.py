@@ -9,18 +9,18 @@ from importlib.util import find_spec
 from pathlib import Path
 from time import perf_counter
 
-from gaitwright.cli.checking import Checks
 from gaitwright.cli.console import Simulating, remark, show_pairs, working
+from gaitwright.cli.mechanics_check import Checks
 from gaitwright.cli.output import check_folder, check_json, write_json, write_whole
-from gaitwright.compiled import is_warm
 from gaitwright.control.numerical import Method
+from gaitwright.description.load import load_robot_and_notes
 from gaitwright.errors import WrongUse
+from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.locomotion import Brain, Chooser, Lap
 from gaitwright.model.robot import Robot
-from gaitwright.model.scene import Scene, load_scene
-from gaitwright.plant.choose import SimulatedPlant, make_plant
-from gaitwright.plant.models import load_robot_and_notes
-from gaitwright.recording import INTERRUPTED, Recording, Report, walk
+from gaitwright.numerics.compiled import is_warm
+from gaitwright.plant.registry import SimulatedPlant, make_plant
+from gaitwright.record.recording import INTERRUPTED, Recording, Report, walk
 from gaitwright.signals import Mission
 from gaitwright.skills.library import REFERENCE_HEIGHT
 
@@ -245,7 +245,7 @@ def illustrate(setting: Setting, recording: Recording, folder: Path) -> list[tup
     files = []
     if has("mcap_ros2", "the recording for Foxglove and Rerun (.mcap)", "record"):
         with working("writing the recording for Foxglove and Rerun", worth_a_line=False):
-            from gaitwright.mcap_export import export_mcap  # noqa: PLC0415 - an extra
+            from gaitwright.record.mcap_export import export_mcap  # noqa: PLC0415 - an extra
 
             files.append(("for Foxglove, Rerun", str(export_mcap(recording, folder / "recording.mcap"))))
     if has("matplotlib", "the picture", "plot"):

@@ -5,9 +5,9 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Bool
 
-from gaitwright.control.codes import INFEASIBLE, SENTENCES
 from gaitwright.model.kinematics import HINGES
 from gaitwright.model.robot import Robot
+from gaitwright.numerics.status import INFEASIBLE, SENTENCES
 from gaitwright.signals import Torques
 
 SENSIBLE = 1e-9

@@ -10,10 +10,10 @@ positive at the upper limit and negative at the lower one. 0: not at that limit,
 
 import numpy as np
 
-from gaitwright.compiled import kernel
-from gaitwright.control.active_set import minimise
-from gaitwright.control.demand import load_of
-from gaitwright.geometry import cross, dot, scale, sub, vec
+from gaitwright.control.inverse_dynamics import load_of
+from gaitwright.numerics.compiled import kernel
+from gaitwright.numerics.geometry import cross, dot, scale, sub, vec
+from gaitwright.numerics.quadratic_program import minimise
 
 FRICTION = 0.5
 """Half-width of the friction pyramid, as a share of the normal force."""

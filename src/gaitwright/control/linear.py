@@ -8,11 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gaitwright.compiled import kernel
-from gaitwright.control.codes import SOLVED
-from gaitwright.control.priced import BOUND, COLUMN, HIGH, LOW, LOWER, UPPER, price_of
-from gaitwright.control.simplex import minimise
 from gaitwright.control.thesis_program import linear_program, settings_of
+from gaitwright.numerics.compiled import kernel
+from gaitwright.numerics.piecewise_linear import BOUND, COLUMN, HIGH, LOW, LOWER, UPPER, price_of
+from gaitwright.numerics.simplex import minimise
+from gaitwright.numerics.status import SOLVED
 
 
 class Shared(NamedTuple):

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.compiled import kernel
+from gaitwright.numerics.compiled import kernel
 from gaitwright.signals import MotionTarget, Sensed
 
 Moments = Float[np.ndarray, "steps numbers"]

@@ -7,17 +7,17 @@ from typing import Literal, NamedTuple
 import numpy as np
 from jaxtyping import Bool, Float
 
-from gaitwright.compiled import kernel
 from gaitwright.control.certificate import linear_status_of, status_of
-from gaitwright.control.codes import NOT_FINITE, SOLVED
-from gaitwright.control.demand import AS_WANTED, demand
 from gaitwright.control.forces import LIMITS, contact_frame, distribute, to_world, torques, unmet
+from gaitwright.control.inverse_dynamics import AS_WANTED, demand
 from gaitwright.control.linear import distribute_linear
 from gaitwright.control.moments import Moment
 from gaitwright.control.shortfall import shortfall
 from gaitwright.control.thesis_program import LinearSettings
 from gaitwright.errors import WrongUse, unknown
 from gaitwright.model.robot import Robot, scales
+from gaitwright.numerics.compiled import kernel
+from gaitwright.numerics.status import NOT_FINITE, SOLVED
 from gaitwright.signals import MotionTarget, Sensed, Torques
 
 Method = Literal["qp", "lp"]

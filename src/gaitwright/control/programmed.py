@@ -5,11 +5,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Bool, Float
 
-from gaitwright.compiled import kernel
 from gaitwright.control.servo import STIFF, Gains, servo_torques
 from gaitwright.errors import WrongUse
 from gaitwright.model.kinematics import HINGES
 from gaitwright.model.robot import Robot
+from gaitwright.numerics.compiled import kernel
 from gaitwright.signals import MotionTarget, Sensed, Torques
 
 Table = Float[np.ndarray, "bins legs 3"]

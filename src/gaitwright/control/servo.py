@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.compiled import kernel
 from gaitwright.model.robot import Robot
+from gaitwright.numerics.compiled import kernel
 from gaitwright.signals import MotionTarget, Sensed, Torques
 
 SERVOED = "solved by joint servo"

@@ -5,11 +5,11 @@ of the wanted wrench unmet, the base accelerates less than wanted, and torques w
 acceleration throw the swinging feet off their way: in a gallop by 3 cm, enough to lose the touch-down.
 """
 
-from gaitwright.compiled import kernel
-from gaitwright.control.demand import load_of
-from gaitwright.geometry import add, cross, rotation, scale, sub, times, times_t, turn_x, turn_y, vec
-from gaitwright.model.dynamics.leg import base_at, leg_at, leg_turns
-from gaitwright.model.dynamics.matrices import apply, inverse, minus, plus, product_t, skew
+from gaitwright.control.inverse_dynamics import load_of
+from gaitwright.dynamics.leg import base_at, leg_at, leg_turns
+from gaitwright.numerics.compiled import kernel
+from gaitwright.numerics.geometry import add, cross, rotation, scale, sub, times, times_t, turn_x, turn_y, vec
+from gaitwright.numerics.matrices import apply, inverse, minus, plus, product_t, skew
 
 
 @kernel

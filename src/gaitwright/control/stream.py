@@ -14,9 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from gaitwright.compiled import kernel_nogil
-from gaitwright.control.demand import AS_WANTED, demand
 from gaitwright.control.forces import LIMITS
+from gaitwright.control.inverse_dynamics import AS_WANTED, demand
 from gaitwright.control.moments import BODY, LEG, Moments, moment_of
 from gaitwright.control.numerical import (
     PLAIN,
@@ -30,6 +29,7 @@ from gaitwright.control.numerical import (
 from gaitwright.control.thesis_program import LinearSettings
 from gaitwright.errors import WrongUse
 from gaitwright.model.robot import Robot
+from gaitwright.numerics.compiled import kernel_nogil
 
 CHUNK = 512
 """Moments whose dynamics are worked out in one go."""

@@ -15,8 +15,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gaitwright.compiled import kernel
-from gaitwright.control.demand import load_of
 from gaitwright.control.forces import (
     FRICTION,
     MOMENT_WEIGHTS,
@@ -25,8 +23,10 @@ from gaitwright.control.forces import (
     contact_frame,
     to_contact,
 )
-from gaitwright.control.priced import COLUMN, blank, set_price
-from gaitwright.geometry import GRAVITY, dot, vec
+from gaitwright.control.inverse_dynamics import load_of
+from gaitwright.numerics.compiled import kernel
+from gaitwright.numerics.geometry import GRAVITY, dot, vec
+from gaitwright.numerics.piecewise_linear import COLUMN, blank, set_price
 
 UNMET = 10.0
 """Price of an unmet share of the wrench, against the peak force in weights."""

@@ -6,8 +6,8 @@ from then on; one that finds none is lowered, unloaded, until it does.
 
 import numpy as np
 
-from gaitwright.compiled import kernel
 from gaitwright.gait.state import SEARCH, STANCE, SWING
+from gaitwright.numerics.compiled import kernel
 
 EARLY = 0.6
 """Share of the swing after which a touch counts as touch-down."""

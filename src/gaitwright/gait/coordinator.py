@@ -8,20 +8,23 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.compiled import kernel
+from gaitwright.gait.command import advance_anchor, sample, slew
+from gaitwright.gait.contact_plane import advance_ground, plane_height, plane_normal
 from gaitwright.gait.contacts import advance_legs, is_lifting, is_waited_for, shares, swing_time
-from gaitwright.gait.cycle_file import cycle_of
 from gaitwright.gait.footholds import STEP, Wish, choose_foothold, is_on_ground, lift_needed
-from gaitwright.gait.ground import advance_ground, plane_height, plane_normal
-from gaitwright.gait.helping import helping_shift
-from gaitwright.gait.leg_cycle import LegCycle, tabulated_legs
-from gaitwright.gait.posture import advance_anchor, sample, slew
+from gaitwright.gait.leg_cycles.files import cycle_of
+from gaitwright.gait.leg_cycles.leg_cycle import LegCycle, tabulated_legs
+from gaitwright.gait.reach_assist import helping_shift
 from gaitwright.gait.reference import periodic_reference
 from gaitwright.gait.regulation import height_over
-from gaitwright.gait.rhythm import adopt, is_new, rhythm_of, takes_over
 from gaitwright.gait.state import SEARCH, STANCE, SWING, GaitMemory, packed, standing, state_of
 from gaitwright.gait.swing import hip_over_ground, search_reference, swing_reference, touchdown
-from gaitwright.geometry import (
+from gaitwright.gait.transition import adopt, is_new, rhythm_of, takes_over
+from gaitwright.ground.foothold_map import Footing, height_at, is_known
+from gaitwright.model.kinematics import all_angles, all_feet, angles, feet, knees
+from gaitwright.model.robot import Robot, unpacked
+from gaitwright.numerics.compiled import kernel
+from gaitwright.numerics.geometry import (
     GRAVITY,
     add,
     heading,
@@ -33,9 +36,6 @@ from gaitwright.geometry import (
     upright_rotation,
     vec,
 )
-from gaitwright.model.footing import Footing, height_at, is_known
-from gaitwright.model.kinematics import all_angles, all_feet, angles, feet, knees
-from gaitwright.model.robot import Robot, unpacked
 from gaitwright.signals import Gait, MotionTarget, Sensed, SkillCall
 
 CONTACT_THRESHOLD = 0.02

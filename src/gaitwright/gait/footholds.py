@@ -7,8 +7,8 @@ place that is neither, with some preference for the one chosen so far, so that a
 import math
 from typing import NamedTuple
 
-from gaitwright.compiled import kernel
-from gaitwright.model.footing import height_at, is_known, nearest
+from gaitwright.ground.foothold_map import height_at, is_known, nearest
+from gaitwright.numerics.compiled import kernel
 
 SEARCHED = 0.6
 """Farthest neighbour of a wished foothold, in body heights."""
@@ -85,7 +85,7 @@ def choose_foothold(ground, wish):
 def lift_needed(ground, origin, x, y, z, radius, table, height):
     """By what factor a leg cycle must be raised so that a foot clears the ground on its way.
 
-    `origin` → (x, y, z): the way of the foot's centre; `table`: the leg cycle (`gait.leg_cycle`).
+    `origin` → (x, y, z): the way of the foot's centre; `table`: the leg cycle (`gait.leg_cycles.leg_cycle`).
     """
     most, peak = 1.0, table[:, 3].max()
     if not is_known(ground) or peak <= 0.0:

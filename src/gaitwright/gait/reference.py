@@ -7,8 +7,8 @@ motion beforehand, or it fights it: without the reference a gallop falls and a p
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.geometry import GRAVITY
 from gaitwright.model.robot import Robot
+from gaitwright.numerics.geometry import GRAVITY
 from gaitwright.signals import Gait
 
 BINS = 256

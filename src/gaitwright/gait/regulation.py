@@ -6,9 +6,9 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.compiled import kernel
 from gaitwright.errors import WrongUse
-from gaitwright.gait.ground import APART, Plane, fit_plane, plane_normal
+from gaitwright.gait.contact_plane import APART, Plane, fit_plane, plane_normal
+from gaitwright.numerics.compiled import kernel
 
 LEVEL = Plane(0.0, 0.0, 0.0, 0.0, 0.0)
 """Level ground at height 0: the past of a robot that has none."""

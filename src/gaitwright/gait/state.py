@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.compiled import kernel
+from gaitwright.numerics.compiled import kernel
 
 STANCE, SWING, SEARCH = 0, 1, 2
 """Modes of a leg: carrying load, on its way, or late and being lowered until it touches."""

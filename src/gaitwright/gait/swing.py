@@ -2,8 +2,8 @@
 
 import math
 
-from gaitwright.compiled import kernel
-from gaitwright.geometry import GRAVITY
+from gaitwright.numerics.compiled import kernel
+from gaitwright.numerics.geometry import GRAVITY
 
 AIM_BELOW = 0.03
 """The touch-down is aimed this share of the body height below the ground, so that it happens."""
@@ -76,7 +76,7 @@ def share_within(limit, x, y, along_x, along_y):
 
 @kernel
 def on_cycle(table, s):
-    """Row of a leg cycle's table (`gait.leg_cycle`) at share `s` of the swing, straight in between."""
+    """Row of a leg cycle's table (`gait.leg_cycles`) at share `s` of the swing, straight in between."""
     x = min(max(s, 0.0), 1.0) * (table.shape[0] - 1)
     i = min(int(x), table.shape[0] - 2)
     t = x - i

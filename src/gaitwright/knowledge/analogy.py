@@ -4,10 +4,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from gaitwright.errors import WrongUse, unknown
-from gaitwright.knowledge.fitting import refit, tightened
 from gaitwright.knowledge.forest import Forest, Situation
-from gaitwright.knowledge.learn import Learned, contradiction
+from gaitwright.knowledge.mark_fitting import refit, tightened
 from gaitwright.knowledge.memory import Action
+from gaitwright.knowledge.modifier import Learned, contradiction
 from gaitwright.knowledge.rules import Event, Instance, Rule, Rulebook, empty_rule
 
 ValueMaps = Mapping[str, Mapping[str, str]]

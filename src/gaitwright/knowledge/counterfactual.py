@@ -6,9 +6,9 @@ from heapq import heappop, heappush
 from itertools import count
 
 from gaitwright.errors import unknown
+from gaitwright.knowledge.compiled import Compiled, compile_book
 from gaitwright.knowledge.consult import Decision, consult
 from gaitwright.knowledge.forest import Forest, Situation
-from gaitwright.knowledge.masks import Compiled, compile_book
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.knowledge.trees import Tree
 

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby, pairwise
 
-from gaitwright.knowledge.fitting import fit_all, with_instance
 from gaitwright.knowledge.forest import Forest, Situation
 from gaitwright.knowledge.generalise import raised
-from gaitwright.knowledge.learn import Inconsistency, Learned, closed, contradiction, moves
+from gaitwright.knowledge.mark_fitting import fit_all, with_instance
 from gaitwright.knowledge.memory import Fact
+from gaitwright.knowledge.modifier import Inconsistency, Learned, closed, contradiction, moves
 from gaitwright.knowledge.rules import Event, Instance, Marks, Rule, Rulebook
 from gaitwright.knowledge.trees import ROOT, Tree, interval_tree, tree
 

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from gaitwright.knowledge.analogy import ValueMaps, mirrored
-from gaitwright.knowledge.learn import Learned
 from gaitwright.knowledge.memory import Action
+from gaitwright.knowledge.modifier import Learned
 from gaitwright.knowledge.rules import Rulebook
 
 

@@ -5,12 +5,12 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from gaitwright.knowledge.consult import consult
+from gaitwright.knowledge.correction import relapses, teach
 from gaitwright.knowledge.features import accept, propose_features
-from gaitwright.knowledge.learn import Inconsistency, Learned, Lesson, learn
-from gaitwright.knowledge.mend import mend
-from gaitwright.knowledge.reshape import Mended
+from gaitwright.knowledge.modifier import Inconsistency, Learned, Lesson, learn
+from gaitwright.knowledge.repair import mend
+from gaitwright.knowledge.restructure import Mended
 from gaitwright.knowledge.rules import Event, Rulebook
-from gaitwright.knowledge.teach import relapses, teach
 from gaitwright.learning.critic import Moment, Step, criticise
 from gaitwright.learning.teacher import Correction, Teacher
 from gaitwright.skills.rule_chooser import DOING, holds

@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 import shapely
 
+from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.learning.kinematic import Course
 from gaitwright.model.robot import Robot
-from gaitwright.model.scene import Scene, load_scene
 from gaitwright.navigation.navigator import Navigator
 from gaitwright.navigation.obstacles import PlanView
 from gaitwright.signals import Mission

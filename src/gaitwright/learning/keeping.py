@@ -1,7 +1,7 @@
 """What was studied, put away in a skillbook step by step."""
 
 from gaitwright.learning.apprentice import Studied
-from gaitwright.skillbook.ledger import Ledger
+from gaitwright.skillbook.writer import Ledger
 
 
 def keep(ledger: Ledger, studied: Studied) -> None:

@@ -11,13 +11,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gaitwright.geometry import GRAVITY, quaternion_of, upright_rotation
+from gaitwright.ground.scene import Scene
 from gaitwright.knowledge.memory import remembered
 from gaitwright.learning.critic import Moment
 from gaitwright.model.kinematics import angles
 from gaitwright.model.robot import Robot
-from gaitwright.model.scene import Scene
 from gaitwright.navigation.navigator import Navigator
+from gaitwright.numerics.geometry import GRAVITY, quaternion_of, upright_rotation
 from gaitwright.signals import Mission, Route, Sensed, SkillCall
 from gaitwright.skills.situation import measured, named
 

@@ -11,10 +11,10 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Bool, Float
 
-from gaitwright.compiled import kernel
 from gaitwright.errors import WrongUse, unknown
-from gaitwright.geometry import add, cross, scale, sub, turn_x, turn_y, vec, wrap
 from gaitwright.model.robot import Robot
+from gaitwright.numerics.compiled import kernel
+from gaitwright.numerics.geometry import add, cross, scale, sub, turn_x, turn_y, vec, wrap
 
 REACHED, TOO_NEAR_AXIS, TOO_FAR, TOO_NEAR_HIP = 0, 1, 2, 3
 """Reach codes; `model/reach.py` makes sentences of them."""

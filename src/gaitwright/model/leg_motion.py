@@ -13,10 +13,10 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Bool, Float
 
-from gaitwright.compiled import kernel
-from gaitwright.geometry import add, times, times_t, turn_x, turn_y, vec
 from gaitwright.model.kinematics import HINGES, feet, per_leg
 from gaitwright.model.robot import Robot
+from gaitwright.numerics.compiled import kernel
+from gaitwright.numerics.geometry import add, times, times_t, turn_x, turn_y, vec
 
 AXIS_SHARE = 0.01
 """A foot less aside from under the first axis than this, per length of the stretched leg, is singular."""

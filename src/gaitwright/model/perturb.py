@@ -11,8 +11,8 @@ import numpy as np
 from jaxtyping import Float
 
 from gaitwright.errors import WrongUse
+from gaitwright.model.nominal_pose import LegShape, best_branch, branch_angles, nominal_foot
 from gaitwright.model.robot import Robot
-from gaitwright.model.stance import LegShape, best_branch, branch_angles, nominal_foot
 
 MOST = 0.5
 """Beyond this share a thigh and a shank may no longer make a leg that stands."""

@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float, Int
 
-from gaitwright.compiled import kernel
-from gaitwright.geometry import GRAVITY
+from gaitwright.numerics.compiled import kernel
+from gaitwright.numerics.geometry import GRAVITY
 
 
 class RobotArrays(NamedTuple):

@@ -3,12 +3,12 @@
 import math
 from dataclasses import dataclass, replace
 
-from gaitwright.geometry import heading, rotation
+from gaitwright.ground.scene import BLIND_STEP, SEEN_STEP, Scene
 from gaitwright.model.robot import Robot
-from gaitwright.model.scene import BLIND_STEP, SEEN_STEP, Scene
 from gaitwright.navigation.obstacles import PlanView, plan_view
-from gaitwright.navigation.scanner import Scanner
 from gaitwright.navigation.visibility import Point, length, shortest_path, visible
+from gaitwright.numerics.geometry import heading, rotation
+from gaitwright.perception.scanner import Scanner
 from gaitwright.signals import Mission, Route, Sensed
 
 ARRIVED = 0.15

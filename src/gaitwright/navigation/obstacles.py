@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import shapely
 from shapely import Polygon
 
+from gaitwright.ground.scene import BLIND_STEP, Scene
 from gaitwright.model.robot import Robot
-from gaitwright.model.scene import BLIND_STEP, Scene
 
 CLEARANCE = 0.15
 """Room beside the robot's feet, in body lengths."""

@@ -7,11 +7,11 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from gaitwright.files import whole
-from gaitwright.model.scene import Scene
+from gaitwright.ground.scene import Scene
 from gaitwright.pictures.charts import draw_attitude, draw_speed, draw_torques
-from gaitwright.pictures.ground import draw_map
+from gaitwright.pictures.map import draw_map
 from gaitwright.pictures.style import DPI, INK, LEFT, MAP, WIDTH
-from gaitwright.recording import Recording
+from gaitwright.record.recording import Recording
 
 
 def trip_picture(recording: Recording, scene: Scene, path: str | Path) -> Path:

@@ -5,9 +5,9 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from gaitwright.figures import attitude, stretches
 from gaitwright.pictures.style import CYCLES, DRIVERS, INK, JOINTS, LEFT, MAP, STYLE, WIDTH, dress
-from gaitwright.recording import Recording
+from gaitwright.record.metrics import attitude, stretches
+from gaitwright.record.recording import Recording
 
 
 def draw_speed(ax: Axes, r: Recording) -> None:

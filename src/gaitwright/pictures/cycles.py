@@ -12,8 +12,8 @@ from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 
 from gaitwright.files import whole
-from gaitwright.gait.cycle_check import Fault
-from gaitwright.gait.leg_cycle import LegCycle, sampled, seen_from_hip
+from gaitwright.gait.leg_cycles.check import Fault
+from gaitwright.gait.leg_cycles.leg_cycle import LegCycle, sampled, seen_from_hip
 from gaitwright.model.robot import Robot
 from gaitwright.pictures import Sheet
 from gaitwright.pictures.style import FAINT, INK, LEFT, SKILLS, STYLE, WIDTH, dress

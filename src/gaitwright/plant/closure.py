@@ -3,9 +3,9 @@
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.geometry import GRAVITY, rotation
-from gaitwright.model.dynamics.tree import ball_rotations, ball_tree
+from gaitwright.dynamics.tree import ball_rotations, ball_tree
 from gaitwright.model.robot import Robot
+from gaitwright.numerics.geometry import GRAVITY, rotation
 from gaitwright.signals import Sensed, Torques
 
 

@@ -11,11 +11,11 @@ import numpy as np
 from jaxtyping import Float
 
 from gaitwright.errors import WrongUse
-from gaitwright.geometry import GRAVITY, quaternion_of, rotation_vector
+from gaitwright.ground.scene import Scene
 from gaitwright.model.kinematics import angles, feet
 from gaitwright.model.robot import Robot
-from gaitwright.model.scene import Scene
-from gaitwright.plant.asked import check_force
+from gaitwright.numerics.geometry import GRAVITY, quaternion_of, rotation_vector
+from gaitwright.plant.limits import check_force
 from gaitwright.plant.start import start_of
 from gaitwright.signals import MotionTarget, Sensed, Torques
 

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.geometry import GRAVITY, upright_rotation
+from gaitwright.ground.scene import Scene
 from gaitwright.model.kinematics import angles, feet
 from gaitwright.model.robot import Robot
-from gaitwright.model.scene import Scene
+from gaitwright.numerics.geometry import GRAVITY, upright_rotation
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.typing import LineStyleType
 
-from gaitwright.gait.cycle import DesiredCycle
+from gaitwright.gait.desired_cycle import DesiredCycle
 from gaitwright.pictures import Sheet
 from gaitwright.pictures.style import INK, LEFT, STYLE, WIDTH, dress
 from gaitwright.reproduce.patterns import KNEE, PSI, THETA

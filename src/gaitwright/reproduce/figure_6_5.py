@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from gaitwright.plant.models import load_robot
+from gaitwright.description.load import load_robot
 from gaitwright.reproduce.claim import Claim, Picture, Reproduction, Say
 from gaitwright.reproduce.gait_claims import (
     Run,

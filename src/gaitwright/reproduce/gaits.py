@@ -1,6 +1,6 @@
 """The two gaits of figures 6.5 and 6.6, and the motion they ask of the thesis's robot."""
 
-from gaitwright.gait.cycle import DesiredCycle, Manner, desired_cycle
+from gaitwright.gait.desired_cycle import DesiredCycle, Manner, desired_cycle
 from gaitwright.model.robot import Robot
 from gaitwright.signals import Gait
 

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 from shapely import MultiPoint, Point
 
-from gaitwright.gait.cycle import DesiredCycle
+from gaitwright.gait.desired_cycle import DesiredCycle
 
 PSI, THETA, KNEE = 0, 1, 2
 MIRRORED = np.array([-1.0, 1.0, 1.0])

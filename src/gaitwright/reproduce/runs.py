@@ -9,9 +9,9 @@ from pathlib import Path
 
 from rich.console import Console
 
-from gaitwright.compiled import is_warm
 from gaitwright.errors import WrongUse
 from gaitwright.files import whole
+from gaitwright.numerics.compiled import is_warm
 from gaitwright.reproduce.claim import Reproduction, Say
 from gaitwright.reproduce.report import markdown, show, to_json, write_text
 

@@ -3,10 +3,10 @@
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.geometry import from_thesis
+from gaitwright.description.load import load_robot
 from gaitwright.model.kinematics import angles
 from gaitwright.model.robot import Robot
-from gaitwright.plant.models import load_robot
+from gaitwright.numerics.geometry import from_thesis
 from gaitwright.reproduce.claim import Claim, Grid, Reproduction, Say
 from gaitwright.reproduce.printed import MISPRINTS_6_1, TABLE_6_1, X_6_1, Z_6_1
 from gaitwright.reproduce.thesis_axes import angles_to_thesis, foot_below_hip

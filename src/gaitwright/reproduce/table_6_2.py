@@ -4,9 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gaitwright.geometry import GRAVITY
+from gaitwright.description.load import load_robot
 from gaitwright.model.robot import Robot
-from gaitwright.plant.models import load_robot
+from gaitwright.numerics.geometry import GRAVITY
 from gaitwright.reproduce.claim import Claim, Grid, Reproduction, Say
 from gaitwright.reproduce.gaits import on_all_fours
 from gaitwright.reproduce.printed import LEGS_6_2, MISREAD_6_2, NET_TORQUE_6_2, TABLE_6_1, TABLE_6_2

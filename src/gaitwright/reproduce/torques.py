@@ -9,12 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from gaitwright.control.demand import load_of, packed_load
+from gaitwright.control.inverse_dynamics import load_of, packed_load
 from gaitwright.control.linear import distribute_linear
 from gaitwright.control.thesis_program import LinearSettings
-from gaitwright.gait.cycle import DesiredCycle
-from gaitwright.geometry import GRAVITY
+from gaitwright.gait.desired_cycle import DesiredCycle
 from gaitwright.model.robot import Robot
+from gaitwright.numerics.geometry import GRAVITY
 
 FRICTION = 0.42
 """μ′ of the friction pyramid: inside the cone of μ = 0.6 (equations.md §5)."""

@@ -7,8 +7,8 @@ from gaitwright.skillbook.book import Skillbook as Skillbook
 from gaitwright.skillbook.book import content_hash as content_hash
 from gaitwright.skillbook.book import export_text as export_text
 from gaitwright.skillbook.book import import_text as import_text
-from gaitwright.skillbook.ledger import Ledger as Ledger
-from gaitwright.skillbook.ledger import open_for_learning as open_for_learning
-from gaitwright.skillbook.merge import Conflict as Conflict
-from gaitwright.skillbook.merge import Merged as Merged
-from gaitwright.skillbook.merge import merge as merge
+from gaitwright.skillbook.merging.merge import Conflict as Conflict
+from gaitwright.skillbook.merging.merge import Merged as Merged
+from gaitwright.skillbook.merging.merge import merge as merge
+from gaitwright.skillbook.writer import Ledger as Ledger
+from gaitwright.skillbook.writer import open_for_learning as open_for_learning

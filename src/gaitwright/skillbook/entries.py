@@ -7,9 +7,7 @@ from msgspec import Meta
 
 from gaitwright.errors import BadFile, WrongUse
 from gaitwright.knowledge.forest import MAX_TREES, Situation
-from gaitwright.knowledge.learn import Lesson
-from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.plain import (
+from gaitwright.knowledge.json_form import (
     ActionEntry,
     BookEntry,
     EventEntry,
@@ -22,6 +20,8 @@ from gaitwright.knowledge.plain import (
     from_plain,
     to_plain,
 )
+from gaitwright.knowledge.memory import Action
+from gaitwright.knowledge.modifier import Lesson
 from gaitwright.knowledge.rules import Event, Rulebook
 from gaitwright.skillbook.history import Ancestor, How, Step
 

@@ -5,10 +5,10 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from gaitwright.errors import WrongUse
-from gaitwright.knowledge.learn import Inconsistency, Lesson, learn
-from gaitwright.knowledge.mend import mend
+from gaitwright.knowledge.correction import teach
+from gaitwright.knowledge.modifier import Inconsistency, Lesson, learn
+from gaitwright.knowledge.repair import mend
 from gaitwright.knowledge.rules import Event, Instance, Rulebook
-from gaitwright.knowledge.teach import teach
 
 How = Literal["begun", "taught", "learned", "mended", "edited"]
 

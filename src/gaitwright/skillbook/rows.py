@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 import msgspec
 
 from gaitwright.errors import BadFile
-from gaitwright.knowledge.plain import FORMAT, BookEntry, EventEntry, RuleEntry, TreeEntry, WishEntry
+from gaitwright.knowledge.json_form import FORMAT, BookEntry, EventEntry, RuleEntry, TreeEntry, WishEntry
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.skillbook.entries import (
     About,

@@ -10,7 +10,7 @@ from typing import Any
 import msgspec
 
 from gaitwright.errors import BadFile
-from gaitwright.knowledge.plain import (
+from gaitwright.knowledge.json_form import (
     FORMAT,
     MAX_BYTES,
     ActionEntry,

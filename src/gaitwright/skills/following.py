@@ -2,8 +2,8 @@
 
 import math
 
-from gaitwright.geometry import heading, rotation, wrap
 from gaitwright.model.robot import Robot
+from gaitwright.numerics.geometry import heading, rotation, wrap
 from gaitwright.signals import Route, Sensed
 from gaitwright.skills.library import LIBRARY, speed_scale
 

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from math import sqrt
 
 from gaitwright.errors import WrongUse, unknown
-from gaitwright.geometry import GRAVITY
 from gaitwright.model.robot import Robot
+from gaitwright.numerics.geometry import GRAVITY
 from gaitwright.signals import Gait
 
 REFERENCE_HEIGHT = 0.29

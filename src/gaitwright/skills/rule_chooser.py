@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from gaitwright.errors import WrongUse
+from gaitwright.knowledge.compiled import Compiled, compile_book, decide
 from gaitwright.knowledge.forest import Forest, Situation
-from gaitwright.knowledge.masks import Compiled, compile_book, decide
 from gaitwright.knowledge.memory import Action, Fact, applied, remembered
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.model.robot import Robot

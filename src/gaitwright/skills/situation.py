@@ -10,11 +10,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from gaitwright.geometry import GRAVITY, dot, heading, roll_pitch_yaw, rotation, times_t, vec, wrap
 from gaitwright.knowledge.forest import Forest, Situation
 from gaitwright.knowledge.trees import interval_tree, tree
 from gaitwright.model.kinematics import leg_points_and_jacobian
 from gaitwright.model.robot import Robot
+from gaitwright.numerics.geometry import GRAVITY, dot, heading, roll_pitch_yaw, rotation, times_t, vec, wrap
 from gaitwright.signals import Route, Scan, Sensed, SkillCall
 from gaitwright.skills.chooser import KEEP_TURNING, TURN_FIRST
 from gaitwright.skills.following import bearing, braked, heading_error, wished_speed

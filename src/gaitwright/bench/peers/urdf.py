@@ -6,8 +6,8 @@ from xml.etree import ElementTree
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.geometry import roll_pitch_yaw
 from gaitwright.model.robot import Robot
+from gaitwright.numerics.geometry import roll_pitch_yaw
 
 PARTS = ("hip", "thigh", "calf")
 AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))

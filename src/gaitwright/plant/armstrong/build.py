@@ -8,10 +8,10 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.geometry import GRAVITY, quaternion_of
-from gaitwright.model.dynamics.tree import Tree, ball_rotations, ball_tree, first_link
+from gaitwright.dynamics.tree import Tree, ball_rotations, ball_tree, first_link
 from gaitwright.model.kinematics import angles
 from gaitwright.model.robot import Robot
+from gaitwright.numerics.geometry import GRAVITY, quaternion_of
 from gaitwright.plant.armstrong.contact import Feet
 from gaitwright.plant.armstrong.joints import ABOUT_X, ABOUT_Y, BOTH, Joints
 from gaitwright.plant.armstrong.stiffness import row_mobility

@@ -12,9 +12,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gaitwright.compiled import kernel
-from gaitwright.geometry import add, cross, dot, scale, sub
-from gaitwright.model.dynamics.matrices import add_row, apply, mat, put_row, row
+from gaitwright.numerics.compiled import kernel
+from gaitwright.numerics.geometry import add, cross, dot, scale, sub
+from gaitwright.numerics.matrices import add_row, apply, mat, put_row, row
 
 SLOTS = 3
 """Planes per foot."""

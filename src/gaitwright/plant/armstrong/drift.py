@@ -7,8 +7,8 @@ integrator's doing (equations.md §3).
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.model.dynamics.tree import Tree
-from gaitwright.model.dynamics.tree_laws import energy, momentum
+from gaitwright.dynamics.tree import Tree
+from gaitwright.dynamics.tree_laws import energy, momentum
 from gaitwright.plant.armstrong.integrators import advance, method_named
 from gaitwright.plant.armstrong.system import System, at_rest, floating, parts, rates_begin, rotations, settle
 

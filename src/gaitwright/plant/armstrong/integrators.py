@@ -12,9 +12,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gaitwright.compiled import kernel
+from gaitwright.dynamics.armstrong import slow_coefficients
 from gaitwright.errors import unknown
-from gaitwright.model.dynamics.armstrong import slow_coefficients
+from gaitwright.numerics.compiled import kernel
 from gaitwright.plant.armstrong.system import (
     parts,
     position_rates,
@@ -23,7 +23,7 @@ from gaitwright.plant.armstrong.system import (
     settle,
     velocity_rates,
 )
-from gaitwright.plant.offers import INTEGRATORS
+from gaitwright.plant.names import INTEGRATORS
 
 SHORTEST = 1e-7
 """Adaptive steps get no shorter [s]: at a blow, where no step is short enough, time must go on."""

@@ -15,9 +15,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gaitwright.compiled import kernel
-from gaitwright.geometry import add, cross, dot, scale, sub, wrap
-from gaitwright.model.dynamics.matrices import apply, apply_t, mat, put_row, row, t_product
+from gaitwright.numerics.compiled import kernel
+from gaitwright.numerics.geometry import add, cross, dot, scale, sub, wrap
+from gaitwright.numerics.matrices import apply, apply_t, mat, put_row, row, t_product
 
 ABOUT_X, ABOUT_Y, BOTH = 0, 1, 2
 """A hinge about x; one about y; x, then y, where the link between them has no mass."""

@@ -9,10 +9,10 @@ with every control period, and what it is off costs a step more, not accuracy.
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.compiled import kernel
-from gaitwright.geometry import add, cross, dot, scale, sub
-from gaitwright.model.dynamics.armstrong import fast_accelerations, slow_coefficients
-from gaitwright.model.dynamics.matrices import add_row, apply, apply_t, mat, row
+from gaitwright.dynamics.armstrong import fast_accelerations, slow_coefficients
+from gaitwright.numerics.compiled import kernel
+from gaitwright.numerics.geometry import add, cross, dot, scale, sub
+from gaitwright.numerics.matrices import add_row, apply, apply_t, mat, row
 from gaitwright.plant.armstrong.joints import BOTH, hinge_axes, relative
 
 ENOUGH = 1e-9

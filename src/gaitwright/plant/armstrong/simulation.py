@@ -10,19 +10,19 @@ from dataclasses import dataclass, field
 import numpy as np
 from jaxtyping import Float
 
+from gaitwright.dynamics.armstrong import accelerations
+from gaitwright.dynamics.tree_laws import closed_form_accelerations
 from gaitwright.errors import WrongUse
-from gaitwright.model.dynamics.armstrong import accelerations
-from gaitwright.model.dynamics.tree_laws import closed_form_accelerations
+from gaitwright.ground.scene import Scene
 from gaitwright.model.kinematics import feet
 from gaitwright.model.robot import Robot
-from gaitwright.model.scene import Scene
 from gaitwright.plant.armstrong.build import any_poses, row_name, state_of, system_of
-from gaitwright.plant.armstrong.ground import Ground
 from gaitwright.plant.armstrong.integrators import advance, method_named
 from gaitwright.plant.armstrong.rotors import newton_matrix
 from gaitwright.plant.armstrong.stiffness import MARGIN, stiffest_mode
 from gaitwright.plant.armstrong.system import Drive, System, loads, mobility_of_hinges, parts, sensed
-from gaitwright.plant.asked import check_force, check_timestep
+from gaitwright.plant.armstrong.touch_planes import Ground
+from gaitwright.plant.limits import check_force, check_timestep
 from gaitwright.plant.start import start_of
 from gaitwright.signals import Sensed, Torques
 
@@ -40,7 +40,7 @@ class ArmstrongPlant:
     dt: float = 0.002
     """Control period [s], an integer multiple of `timestep`."""
     integrator: str = "semi-implicit"
-    """A name of `plant.offers.INTEGRATORS`."""
+    """A name of `plant.names.INTEGRATORS`."""
     timestep: float | None = None
     """Step of the physics [s]; where none is given the longest share of `dt` that is safe. Integrator
     `adaptive` begins with it and then chooses its own."""

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.compiled import kernel
-from gaitwright.geometry import add, cross, dot, scale, sub
-from gaitwright.model.dynamics.armstrong import fast_accelerations, slow_coefficients
-from gaitwright.model.dynamics.matrices import add_row, apply, apply_t, mat, put_row, row
+from gaitwright.dynamics.armstrong import fast_accelerations, slow_coefficients
+from gaitwright.numerics.compiled import kernel
+from gaitwright.numerics.geometry import add, cross, dot, scale, sub
+from gaitwright.numerics.matrices import add_row, apply, apply_t, mat, put_row, row
 from gaitwright.plant.armstrong.integrators import Method
 from gaitwright.plant.armstrong.joints import BOTH, CREEP, guides, hinge_axes, relative
 from gaitwright.plant.armstrong.rotors import newton_matrix

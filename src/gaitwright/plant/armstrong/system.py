@@ -11,11 +11,11 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.compiled import kernel
-from gaitwright.geometry import add, cross
-from gaitwright.model.dynamics.armstrong import fast_accelerations, slow_coefficients
-from gaitwright.model.dynamics.matrices import add_row, apply, mat, put_row, row
-from gaitwright.model.dynamics.tree import Tree
+from gaitwright.dynamics.armstrong import fast_accelerations, slow_coefficients
+from gaitwright.dynamics.tree import Tree
+from gaitwright.numerics.compiled import kernel
+from gaitwright.numerics.geometry import add, cross
+from gaitwright.numerics.matrices import add_row, apply, mat, put_row, row
 from gaitwright.plant.armstrong.contact import NOWHERE, SLOTS, Feet, contact_forces, let_go, slip_rates
 from gaitwright.plant.armstrong.joints import Joints, hinge_states, joint_torques
 from gaitwright.plant.armstrong.rotors import hinge_mobility, with_rotors

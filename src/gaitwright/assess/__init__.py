@@ -1,0 +1,1 @@
+"""Robot → what it can do: torque profiles, motor requirements, trials."""

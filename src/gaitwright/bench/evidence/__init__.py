@@ -1,0 +1,1 @@
+"""What claims are measured with: oracles, random schools, moments of real gaits."""

@@ -1,0 +1,92 @@
+"""What the words after an option mean: text → value, or one sentence about what is wrong with it."""
+
+import argparse
+import math
+import re
+
+from gaitwright.errors import WrongUse, unknown
+from gaitwright.plant.names import INTEGRATORS, PLANTS
+
+DRIVERS = {
+    "numerical": "solves the robot's dynamics at every tick",
+    "hybrid": "does so too, with skills chosen by the rules of --skillbook",
+    "kinematic": "holds the joints to the angles that the motion needs, without forces",
+    "programmed": "plays the joint angles of the gait back, whatever happens",
+}
+"""Who can compute the torques now."""
+LATER = ("learned",)
+"""Drivers that will exist."""
+LONGEST = 3600.0
+"""Longest time to simulate in one go [s]; a recording takes 0.5 MB of memory per second."""
+
+
+def finite(text: str) -> float:
+    """A number that is neither infinite nor not one."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"{text.strip()!r} is not a finite number")
+    return value
+
+
+def positive(text: str) -> float:
+    value = finite(text)
+    if value <= 0.0:
+        raise argparse.ArgumentTypeError(f"{text.strip()} is not greater than 0")
+    return value
+
+
+def duration(text: str) -> float:
+    value = positive(text)
+    if value > LONGEST:
+        raise argparse.ArgumentTypeError(f"{text.strip()} s is longer than the limit of {LONGEST:g} s")
+    return value
+
+
+def seed(text: str) -> int:
+    if not re.fullmatch(r"\d{1,18}", text):
+        raise argparse.ArgumentTypeError(f"{text.strip()!r} is not a whole number from 0 to 10^18")
+    return int(text)
+
+
+def count(text: str) -> int:
+    if not re.fullmatch(r"0*[1-9]\d{0,8}", text):
+        raise argparse.ArgumentTypeError(f"{text.strip()!r} is not a whole number from 1 to 10^9")
+    return int(text)
+
+
+def point(text: str) -> tuple[float, float]:
+    parts = text.split(",")
+    if len(parts) != 2:
+        raise argparse.ArgumentTypeError(
+            f"{text.strip()!r} is not a point; write X,Y without a space, e.g. 2,-1.5"
+        )
+    return finite(parts[0]), finite(parts[1])
+
+
+def driver(text: str) -> str:
+    if text in LATER:
+        raise WrongUse(f"driver {text!r} does not exist yet; there is: {', '.join(DRIVERS)}")
+    if text not in DRIVERS:
+        raise unknown("driver", text, DRIVERS)
+    return text
+
+
+def distribution(text: str) -> str:
+    if text not in ("qp", "lp"):
+        raise unknown("distribution", text, ("qp", "lp"))
+    return text
+
+
+def plant(text: str) -> str:
+    if text not in PLANTS:
+        raise unknown("plant", text, PLANTS)
+    return text
+
+
+def integrator(text: str) -> str:
+    if text not in INTEGRATORS:
+        raise unknown("integrator", text, INTEGRATORS)
+    return text

@@ -1,0 +1,155 @@
+"""The situation that a person asks about: what was said, what a recording tells, and the rest as last
+taught."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import islice, product
+
+from gaitwright.errors import WrongUse, unknown
+from gaitwright.knowledge.compiled import compile_book
+from gaitwright.knowledge.consult import consult
+from gaitwright.knowledge.counterfactual import counterfactual
+from gaitwright.knowledge.forest import Forest, Situation, replace_value
+from gaitwright.knowledge.memory import Fact
+from gaitwright.knowledge.rules import Rulebook
+from gaitwright.knowledge.trees import Tree
+
+SAID, RECORDED = "said", "recorded"
+MOST = 64
+"""So many ways to fill what was said in part are tried."""
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """A situation, and for each tree where its value comes from: said, recorded, or else what it was taken
+    from."""
+
+    situation: Situation
+    sources: tuple[str, ...]
+    partly: tuple[tuple[str, str], ...] = ()
+    """Trees of which only a value above the leaves was said, with that value."""
+
+    @property
+    def open(self) -> tuple[str, ...]:
+        """The trees whose leaf nobody told."""
+        names = self.situation.trees
+        return tuple(
+            tree for tree, source in zip(names, self.sources, strict=True) if source not in (SAID, RECORDED)
+        )
+
+
+def said(words: Sequence[str], forest: Forest) -> dict[str, str]:
+    """What `--situation TREE=VALUE …` says, by tree. Raises `WrongUse` for what is no tree's value."""
+    values: dict[str, str] = {}
+    for word in words:
+        tree, equals, value = (part.strip() for part in word.partition("="))
+        if not equals or not value:
+            raise WrongUse(f"--situation {word}: write TREE=VALUE; the trees are {', '.join(forest.names)}")
+        forest[tree]
+        if tree in values:
+            raise WrongUse(f"--situation says {tree} twice: {values[tree]} and {value}")
+        values[tree] = value
+    return values
+
+
+def asked(book: Rulebook, values: Mapping[str, str], facts: Mapping[str, Fact]) -> Asked:
+    """A leaf for every tree: what was said comes first, then the facts, then the lessons, the last first.
+
+    Raises `WrongUse` for a value that does not exist, and where no lesson has one for a tree left open.
+    """
+    lessons = last_lessons(book)
+    found = [_leaf(tree, values.get(tree.name), facts, lessons) for tree in book.forest.trees]
+    pairs = zip(book.forest.trees, found, strict=True)
+    missing = [f"{tree.name} ({', '.join(tree.leaves)})" for tree, leaf in pairs if leaf is None]
+    if missing:
+        raise WrongUse(f"no lesson has a value of {'; '.join(missing)}: add it to --situation")
+    leaves, sources = zip(*(leaf for leaf in found if leaf), strict=True)
+    partly = tuple(
+        (tree, value) for tree, value in values.items() if _said_leaf(book.forest[tree], value) is None
+    )
+    return Asked(Situation(book.forest.names, leaves), sources, partly)
+
+
+def last_lessons(book: Rulebook) -> list[tuple[str, Situation]]:
+    """The situations of the lessons: those that moved something, the last first, then the others."""
+    taught = {
+        instance.id: instance.situation
+        for rule in book.rules
+        for instance in (*rule.positives, *rule.negatives)
+        if instance.seen
+    }
+    taught |= {wish.instance: wish.situation for wish in book.preferences}
+    moved = [event.instance for event in reversed(book.events) if event.instance in taught]
+    return [(name, taught[name]) for name in dict.fromkeys([*moved, *reversed(taught)])]
+
+
+def whatever(book: Rulebook, at: Asked) -> str:
+    """Whether the trees left open make a difference, in a sentence; tried with all of their values."""
+    names = [tree for tree in at.situation.trees if tree in at.open]
+    trees = names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+    other = _decided_otherwise(book, at)
+    return f"What was left open matters: {other}." if other else f"That is so whatever {trees} may be."
+
+
+def _decided_otherwise(book: Rulebook, at: Asked) -> str:
+    """What would have to be different in the open trees for another decision; empty where nothing can."""
+    within = dict(at.partly)
+    keep = [tree for tree in at.situation.trees if tree not in at.open or tree in within]
+    now, table = consult(book, at.situation).rule, compile_book(book)
+    choices = [book.forest[tree].leaves_below(value) for tree, value in within.items()]
+    for leaves in islice(product(*choices), MOST):
+        situation = at.situation
+        for tree, leaf in zip(within, leaves, strict=True):
+            situation = replace_value(book.forest, situation, tree, leaf)
+        rule = consult(book, situation).rule
+        if rule != now:
+            told = " and ".join(f"{tree} is {leaf}" for tree, leaf in zip(within, leaves, strict=True))
+            return f"{rule or 'no rule'} would fire if {told}"
+        other = counterfactual(book, situation, keep=keep, compiled=table)
+        if other.decision is not None:
+            return other.sentence
+    return ""
+
+
+def _leaf(
+    tree: Tree, value: str | None, facts: Mapping[str, Fact], lessons: Sequence[tuple[str, Situation]]
+) -> tuple[str, str] | None:
+    """A tree's leaf and where it comes from; `None` where nothing tells."""
+    if value is not None:
+        leaf = _said_leaf(tree, value)
+        if leaf is not None:
+            return leaf, SAID
+        if value not in tree.place:
+            raise unknown(f"value of {tree.name}", value, tree.values)
+        return _taught(tree, tree.leaves_below(value), lessons) or (
+            tree.leaves_below(value)[0],
+            "as the first",
+        )
+    fact = facts.get(tree.source or tree.name)
+    if fact is not None and tree.bounds and not isinstance(fact, str):
+        return tree.leaf_of(fact), RECORDED
+    if isinstance(fact, str) and tree.is_leaf(fact):
+        return fact, RECORDED
+    return _taught(tree, tree.leaves, lessons)
+
+
+def _said_leaf(tree: Tree, value: str) -> str | None:
+    """The leaf of that name, or the interval of that number, with or without its unit."""
+    if tree.is_leaf(value):
+        return value
+    try:
+        number = float(value.removesuffix(tree.unit))
+    except ValueError:
+        return None
+    return tree.leaf_of(number) if tree.bounds else None
+
+
+def _taught(
+    tree: Tree, leaves: Sequence[str], lessons: Sequence[tuple[str, Situation]]
+) -> tuple[str, str] | None:
+    """The leaf among these that the last lesson had which had one."""
+    for name, situation in lessons:
+        value = situation[tree.name]
+        if value in leaves:
+            return str(value), f"as at {name}"
+    return None

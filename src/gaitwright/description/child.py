@@ -1,0 +1,59 @@
+"""Reads one robot's file under limits and prints its numbers as JSON, for `description/load.py`.
+
+Run as `python -m gaitwright.description.child FILE`. Exit code 0: `{"robot": …, "notes": …}`; 3: the file
+is refused, `{"error": sentence}`.
+"""
+
+import os
+import sys
+from dataclasses import fields
+from pathlib import Path
+
+import msgspec
+import numpy as np
+
+from gaitwright.description.derive import derive
+from gaitwright.description.mujoco_model import compiled
+from gaitwright.errors import BadFile
+from gaitwright.model.robot import Robot
+
+CPU_SECONDS = 30
+"""CPU time for one file [s]."""
+MEMORY_BYTES = 4_000_000_000
+"""Memory for one file, as addresses [bytes]."""
+
+
+def main(path: Path) -> int:
+    """Prints the robot in `path`, or why it is refused."""
+    limit()
+    try:
+        robot, notes = derive(compiled(path), path.stem)
+    except BadFile as error:
+        sys.stdout.buffer.write(msgspec.json.encode({"error": str(error)}))
+        return BadFile.exit_code
+    sys.stdout.buffer.write(msgspec.json.encode({"robot": numbers(robot), "notes": notes}))
+    return 0
+
+
+def limit() -> None:
+    """Limits CPU time and memory of this process, and forbids it to write files. POSIX only."""
+    if os.name != "posix":
+        return
+    import resource
+
+    seconds = int(sum(os.times()[:2])) + CPU_SECONDS
+    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 2))
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
+    resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
+
+
+def numbers(robot: Robot) -> dict:
+    """The fields of a robot as plain lists."""
+    values = {field.name: getattr(robot, field.name) for field in fields(Robot)}
+    return {
+        name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in values.items()
+    }
+
+
+if __name__ == "__main__":
+    sys.exit(main(Path(sys.argv[1])))

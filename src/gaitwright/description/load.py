@@ -1,0 +1,101 @@
+"""A name or a file → `Robot` (rows R1, R2): our own robots here, files of users in a child process."""
+
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+
+from gaitwright.description.child import CPU_SECONDS, MEMORY_BYTES
+from gaitwright.description.derive import derive
+from gaitwright.description.mujoco_model import compiled
+from gaitwright.errors import BadFile, unknown
+from gaitwright.model.catalogue import robot_file, robot_names
+from gaitwright.model.robot import Robot
+
+SUFFIXES = (".xml", ".mjcf", ".urdf")
+WALL_SECONDS = 60
+"""Longest time that reading a user's file may take [s]."""
+QUIET = {"NUMBA_DISABLE_JIT": "1", "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+"""Environment of the child: nothing is compiled for one robot, and threads do not count as memory."""
+
+
+class Answer(msgspec.Struct, forbid_unknown_fields=True):
+    """What the child process prints: a robot as plain lists, or why there is none."""
+
+    robot: dict[str, str | float | list] = {}
+    notes: tuple[str, ...] = ()
+    error: str = ""
+
+
+def load_robot(name_or_path: str | Path) -> Robot:
+    """The robot of that name, or the one in that MJCF or URDF file.
+
+    Raises `WrongUse` for a name that does not exist and `BadFile` for a file that cannot be used.
+    """
+    return load_robot_and_notes(name_or_path)[0]
+
+
+def load_robot_and_notes(name_or_path: str | Path) -> tuple[Robot, tuple[str, ...]]:
+    """As `load_robot`, with a sentence about each thing that the file left open and that was derived."""
+    asked = str(name_or_path)
+    if asked in robot_names():
+        return built_in(asked)
+    path = Path(asked)
+    if path.is_file():
+        return from_file(path)
+    if path.is_dir():
+        raise BadFile(f"{path}: a folder; expected an MJCF or URDF file")
+    if path.suffix.lower() in SUFFIXES or len(path.parts) > 1:
+        raise BadFile(f"{path}: no such file; expected an MJCF or URDF file")
+    raise unknown("robot", asked, (*robot_names(), "or the path of an MJCF or URDF file"))
+
+
+def built_in(name: str) -> tuple[Robot, tuple[str, ...]]:
+    """A robot of the catalogue."""
+    return derive(compiled(robot_file(name)), name)
+
+
+def from_file(path: Path) -> tuple[Robot, tuple[str, ...]]:
+    """The robot in a user's file, which a child process reads under limits."""
+    if not os.access(path, os.R_OK):
+        raise BadFile(f"{path}: no permission to read it")
+    reading = [sys.executable, "-P", "-B", "-m", "gaitwright.description.child", str(path.resolve())]
+    with tempfile.TemporaryDirectory() as empty:
+        try:
+            child = subprocess.run(
+                reading,
+                cwd=empty,
+                env=os.environ | QUIET,
+                capture_output=True,
+                timeout=WALL_SECONDS,
+                check=False,
+            )
+        except subprocess.TimeoutExpired as error:
+            raise BadFile(f"{path}: reading it took longer than {WALL_SECONDS} s") from error
+    if child.returncode not in (0, BadFile.exit_code):
+        limits = f"{CPU_SECONDS} s of CPU and {MEMORY_BYTES / 1e9:g} GB"
+        raise BadFile(f"{path}: its reader broke off, within limits of {limits}: {why(child)}")
+    answer = msgspec.json.decode(child.stdout, type=Answer)
+    if answer.error:
+        raise BadFile(f"{path}: {answer.error}")
+    return robot_of(answer.robot), answer.notes
+
+
+def robot_of(values: dict[str, Any]) -> Robot:
+    """A robot from plain lists."""
+    arrays: dict[str, Any] = {name: np.array(v) for name, v in values.items() if isinstance(v, list)}
+    return Robot(**{**values, **arrays, "legs": tuple(values["legs"])})
+
+
+def why(child: subprocess.CompletedProcess[bytes]) -> str:
+    """How a process ended: the signal that stopped it, or what it said last."""
+    if child.returncode < 0:
+        return f"stopped by {signal.Signals(-child.returncode).name}"
+    said = child.stderr.decode(errors="replace").strip().splitlines()
+    return said[-1][:200] if said else f"exit code {child.returncode}"

@@ -1,0 +1,223 @@
+"""An XML file of unknown origin → a plain MJCF or URDF tree that opens no other file and runs nothing.
+
+Only what bears on the numbers of a robot is kept. Includes are spliced in here, so that MuJoCo sees one
+text; meshes are still named, `description/mujoco_model.py` decides which of them are opened.
+"""
+
+import math
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from pathlib import Path
+from xml.parsers import expat
+
+from gaitwright.errors import BadFile
+
+MAX_BYTES = 20_000_000
+"""Largest file that is read, with all that it includes [bytes]."""
+MAX_DEPTH = 100
+"""Deepest nesting of elements."""
+
+MJCF_SECTIONS = {"compiler", "default", "asset", "worldbody", "actuator", "keyframe"}
+MJCF_DROPPED = {
+    "camera",
+    "light",
+    "plugin",
+    "material",
+    "texture",
+    "hfield",
+    "skin",
+    "model",
+    "tendon",
+    "equality",
+    "pair",
+}
+MJCF_REFUSED = {"attach", "composite", "flexcomp"}
+URDF_SECTIONS = {"link", "joint", "mujoco"}
+URDF_MENDERS = {"balanceinertia", "boundmass", "boundinertia"}
+"""MuJoCo's own remedies for the inertias of a URDF, in `<mujoco><compiler …/></mujoco>`."""
+URDF_DROPPED = {"visual", "mimic", "safety_controller", "calibration"}
+SHORTEST_AXIS = 1e-14
+"""An axis shorter than this has no direction, here as in MuJoCo."""
+
+
+def read_tree(path: Path) -> ET.Element:
+    """The plain tree of an MJCF or URDF file. Raises `BadFile`, without the file's name."""
+    reader = Reader(path.parent)
+    root = reader.read(path)
+    if root.tag == "mujoco":
+        root[:] = reader.expanded(root)
+        plain = plain_mjcf(root)
+    elif root.tag == "robot":
+        plain = plain_urdf(root)
+    else:
+        raise BadFile(f"its outermost element is <{root.tag}>; expected <mujoco> (MJCF) or <robot> (URDF)")
+    check_numbers(plain)
+    return plain
+
+
+def check_numbers(root: ET.Element) -> None:
+    """Raises `BadFile` where an attribute holds a number that is none, or a joint's axis has no length."""
+    for element, where in placed(root):
+        for name, value in element.attrib.items():
+            if not all(map(is_finite, value.split())):
+                raise BadFile(f"{name}={value!r} of {where} is not finite")
+        axis = element.get("axis") or (element.get("xyz") if element.tag == "axis" else None)
+        if axis is not None and all(abs(x) < SHORTEST_AXIS for x in numbers_in(axis)):
+            raise BadFile(f"the axis {axis!r} of {where} has no length; expected the direction of the hinge")
+
+
+def placed(element: ET.Element, owner: str = "") -> Iterator[tuple[ET.Element, str]]:
+    """An element and all below it, each with the words that say where it is: itself or what it is inside."""
+    name = element.get("name")
+    where = f"{element.tag} {name!r}" if name else f"<{element.tag}>{owner}"
+    yield element, where
+    for child in element:
+        yield from placed(child, f" in {where}" if name else owner)
+
+
+def is_finite(word: str) -> bool:
+    """Whether a word of an attribute is a finite number, or no number."""
+    try:
+        return math.isfinite(float(word))
+    except ValueError:
+        return True
+
+
+def numbers_in(value: str) -> list[float]:
+    """The numbers of an attribute; if they are not numbers, one that is none: MuJoCo will say so."""
+    try:
+        return [float(word) for word in value.split()]
+    except ValueError:
+        return [math.nan]
+
+
+class Reader:
+    """Reads the files of one folder, each once, up to `MAX_BYTES` in all."""
+
+    def __init__(self, folder: Path):
+        self.folder = folder
+        self.seen: set[Path] = set()
+        self.left = MAX_BYTES
+
+    def read(self, path: Path) -> ET.Element:
+        """The element tree of one file."""
+        size = path.stat().st_size
+        if size > self.left:
+            raise BadFile(f"{size} bytes of XML in {path.name!r}; expected at most {MAX_BYTES} in all")
+        self.seen.add(path.resolve())
+        data = path.read_bytes()
+        self.left -= len(data)
+        check_xml(data)
+        return ET.fromstring(data)
+
+    def expanded(self, element: ET.Element) -> list[ET.Element]:
+        """The children of an element with every `include` replaced by what it names."""
+        children = []
+        for child in element:
+            if child.tag == "include":
+                children += self.expanded(self.included(child.get("file", "")))
+            else:
+                child[:] = self.expanded(child)
+                children.append(child)
+        return children
+
+    def included(self, name: str) -> ET.Element:
+        """The tree of an included file of the same folder."""
+        path = inside(self.folder, name)
+        if path is None:
+            raise BadFile(f"it includes {name!r}, which is not a file inside its own folder")
+        if path in self.seen:
+            raise BadFile(f"it includes {name!r} twice")
+        return self.read(path)
+
+
+def inside(folder: Path, name: str) -> Path | None:
+    """The existing file `name` of a folder or below it; `None` where it is missing or elsewhere."""
+    if not name or "\0" in name or "://" in name:
+        return None
+    path = (folder / name).resolve()
+    return path if path.is_relative_to(folder.resolve()) and path.is_file() else None
+
+
+def check_xml(data: bytes) -> None:
+    """Raises `BadFile` where `data` is not XML, declares a document type or nests too deep."""
+    depth = 0
+
+    def refuse_doctype(*_):
+        raise BadFile("it has a DOCTYPE; expected plain XML without entities")
+
+    def enter(*_):
+        nonlocal depth
+        depth += 1
+        if depth > MAX_DEPTH:
+            raise BadFile(f"its elements nest deeper than {MAX_DEPTH}")
+
+    def leave(*_):
+        nonlocal depth
+        depth -= 1
+
+    parser = expat.ParserCreate()
+    parser.StartDoctypeDeclHandler = refuse_doctype
+    parser.StartElementHandler = enter
+    parser.EndElementHandler = leave
+    try:
+        parser.Parse(data, True)
+    except (expat.ExpatError, ValueError, LookupError) as error:
+        raise BadFile(f"not XML: {error}") from error
+
+
+def plain_mjcf(root: ET.Element) -> ET.Element:
+    """An MJCF tree with bodies, joints, shapes, joint actuators and keyframes, and nothing else."""
+    for element in root.iter():
+        if element.tag in MJCF_REFUSED:
+            raise BadFile(f"<{element.tag}> is not supported; expected bodies written out")
+    keep(root, lambda child: child.tag in MJCF_SECTIONS)
+    for element in list(root.iter()):
+        keep(element, lambda child: child.tag not in MJCF_DROPPED)
+        element.attrib.pop("material", None)
+    for actuators in root.findall("actuator"):
+        keep(actuators, lambda child: "joint" in child.attrib or "jointinparent" in child.attrib)
+    for keyframe in root.findall("keyframe"):
+        for key in keyframe:
+            key.attrib = {name: value for name, value in key.attrib.items() if name in ("name", "qpos")}
+    return root
+
+
+def plain_urdf(root: ET.Element) -> ET.Element:
+    """A URDF tree with links, joints and collision shapes, and nothing else."""
+    if any("xacro" in str(element.tag) for element in root.iter()):
+        raise BadFile("it is a xacro template; expected the URDF that xacro makes of it")
+    keep(root, lambda child: child.tag in URDF_SECTIONS)
+    for element in list(root.iter()):
+        keep(element, lambda child: child.tag not in URDF_DROPPED)
+    for compiler in root.findall("mujoco/compiler"):
+        compiler.attrib = {name: value for name, value in compiler.attrib.items() if name in URDF_MENDERS}
+    for limit in root.findall("joint/limit"):
+        limit.attrib = {name: value for name, value in limit.attrib.items() if is_finite(value)}
+    floating = [joint for joint in root.findall("joint") if joint.get("type") == "floating"]
+    if len(floating) == 1:
+        keep_below(root, floating[0])
+    return root
+
+
+def keep_below(root: ET.Element, floating: ET.Element) -> None:
+    """Makes the child of a floating joint the root link: what is above it is the world."""
+    outwards = {end(joint, "parent"): [] for joint in root.findall("joint")}
+    for joint in root.findall("joint"):
+        outwards[end(joint, "parent")].append(end(joint, "child"))
+    below = [end(floating, "child")]
+    for link in below:
+        below += [child for child in outwards.get(link, ()) if child not in below]
+    of = {"link": lambda link: link.get("name"), "joint": lambda joint: end(joint, "parent")}
+    keep(root, lambda child: child.tag == "mujoco" or of[child.tag](child) in below)
+
+
+def end(joint: ET.Element, which: str) -> str:
+    """Name of the `parent` or `child` link of a URDF joint."""
+    link = joint.find(which)
+    return "" if link is None else link.get("link", "")
+
+
+def keep(element: ET.Element, wanted) -> None:
+    """Removes the children that are not wanted."""
+    element[:] = [child for child in element if wanted(child)]

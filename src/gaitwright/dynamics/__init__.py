@@ -1,0 +1,1 @@
+"""Robot + motion ↔ forces: Newton–Euler, articulated bodies, Armstrong's recursion, closed chains."""

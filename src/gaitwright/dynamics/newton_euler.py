@@ -1,0 +1,260 @@
+"""Inverse dynamics of hinge legs on a floating base, by Newton and Euler (row N1; equations.md §4).
+
+Out along each leg go angular velocities and accelerations, in come forces and torques; O(links), no
+mass matrix. Gravity enters as an upward acceleration of the base. Every vector is in the axes of its
+own link, so that a hinge costs one plane turn.
+
+Accelerations are linear in q̈ and angular velocities do not depend on it. So a leg's outward pass splits
+exactly: `bias_motion` runs it with q̈ = 0, `with_accelerations` adds what q̈ adds. A caller that first
+needs the bias (to find q̈ from a wanted acceleration of the foot) thereby goes outward once.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from jaxtyping import Float
+
+from gaitwright.dynamics.leg import (
+    base_at,
+    foot_and_columns,
+    leg_at,
+    leg_of,
+    leg_turns,
+    to_leg_frame,
+)
+from gaitwright.numerics.compiled import kernel
+from gaitwright.numerics.geometry import add, cross, dot, scale, sub, turn_x, turn_y, vec
+from gaitwright.numerics.matrices import apply, apply_t, rows, vec_at, write
+
+NO_LOAD = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+"""Force and moment on a foot in the air."""
+
+
+# --- outward -------------------------------------------------------------------------------------
+@kernel
+def carried(a, w, wd, r):
+    """Acceleration of a point at `r` on a body whose origin accelerates with `a` (eq. 4-12)."""
+    return add(a, add(cross(wd, r), cross(w, cross(w, r))))
+
+
+@kernel
+def hinge_motion(w, wd, axis_rate):
+    """Angular velocity and acceleration past a hinge that keeps its rate; child's axes (eq. 4-10, 4-11)."""
+    return add(w, axis_rate), add(wd, cross(w, axis_rate))
+
+
+@kernel
+def motion_at_hip(leg, w, wd, a):
+    """Motion of the base at a leg's first hinge, turned into the leg frame."""
+    at_hip = carried(a, w, wd, leg.hip)
+    return apply_t(leg.frame, w), apply_t(leg.frame, wd), apply_t(leg.frame, at_hip)
+
+
+@kernel
+def bias_motion(turns, qd, offset, sign, w, wd, a):
+    """Angular velocity, angular and linear acceleration of the three links with q̈ = 0, each in its axes.
+
+    `turns`: `leg_turns` of the angles; `w`, `wd`, `a`: `motion_at_hip`.
+    """
+    (c1, s1), (c2, s2), (c3, s3) = turns
+    w1, wd1 = hinge_motion(turn_x(c1, -s1, w), turn_x(c1, -s1, wd), (qd[0], 0.0, 0.0))
+    a1 = turn_x(c1, -s1, a)
+    a2 = turn_y(c2, -s2, carried(a1, w1, wd1, offset[0]))
+    w2, wd2 = hinge_motion(turn_y(c2, -s2, w1), turn_y(c2, -s2, wd1), (0.0, qd[1], 0.0))
+    a3 = turn_y(c3, -s3, carried(a2, w2, wd2, offset[1]))
+    w3, wd3 = hinge_motion(turn_y(c3, -s3, w2), turn_y(c3, -s3, wd2), (0.0, sign * qd[2], 0.0))
+    return (w1, wd1, a1), (w2, wd2, a2), (w3, wd3, a3)
+
+
+@kernel
+def with_accelerations(turns, bias, qdd, offset, sign):
+    """The `bias_motion` with what the joint accelerations add to it: the motion with q̈."""
+    _, (c2, s2), (c3, s3) = turns
+    (w1, wd1, a1), (w2, wd2, a2), (w3, wd3, a3) = bias
+    more1 = (qdd[0], 0.0, 0.0)
+    pull2 = turn_y(c2, -s2, cross(more1, offset[0]))
+    more2 = add(turn_y(c2, -s2, more1), (0.0, qdd[1], 0.0))
+    pull3 = turn_y(c3, -s3, add(pull2, cross(more2, offset[1])))
+    more3 = add(turn_y(c3, -s3, more2), (0.0, sign * qdd[2], 0.0))
+    return (
+        (w1, add(wd1, more1), a1),
+        (w2, add(wd2, more2), add(a2, pull2)),
+        (w3, add(wd3, more3), add(a3, pull3)),
+    )
+
+
+@kernel
+def links_motion(leg, turns, w, wd, a, qd, qdd):
+    """Motion of the three links for that of the base (base axes) and of the joints, each in its axes."""
+    w0, wd0, a0 = motion_at_hip(leg, w, wd, a)
+    bias = bias_motion(turns, qd, leg.offset, leg.sign, w0, wd0, a0)
+    return with_accelerations(turns, bias, qdd, leg.offset, leg.sign)
+
+
+@kernel
+def foot_acceleration(turns, motion, offset):
+    """Acceleration of the foot centre, leg frame, from the motion of the links."""
+    w, wd, a = motion[2]
+    return to_leg_frame(turns, carried(a, w, wd, offset[2]))
+
+
+# --- inward --------------------------------------------------------------------------------------
+@kernel
+def link_load(motion, mass, com, inertia):
+    """Force and moment about its hinge that the motion of one link asks for (eq. 4-13 … 4-15)."""
+    w, wd, a = motion
+    force = scale(mass, carried(a, w, wd, com))
+    moment = add(apply(inertia, wd), cross(w, apply(inertia, w)))
+    return force, add(moment, cross(com, force))
+
+
+@kernel
+def leg_load(turns, qdd, leg, motion, ground):
+    """Wrench about the base origin (base axes, eq. 4-24) and the three joint torques (eq. 4-16 … 4-18).
+
+    They are what the leg needs from the base and the motors to move as `motion` says. `ground`: the force
+    on the foot and its moment about the third hinge, in the last link's axes (`NO_LOAD` in the air).
+    """
+    (c1, s1), (c2, s2), (c3, s3) = turns
+    f3, g3 = link_load(motion[2], leg.mass[2], leg.com[2], leg.inertia[2])
+    f3, g3 = sub(f3, ground[0]), sub(g3, ground[1])
+    f, g = turn_y(c3, s3, f3), turn_y(c3, s3, g3)
+    f2, g2 = link_load(motion[1], leg.mass[1], leg.com[1], leg.inertia[1])
+    f2, g2 = add(f2, f), add(g2, add(g, cross(leg.offset[1], f)))
+    f, g = turn_y(c2, s2, f2), turn_y(c2, s2, g2)
+    f1, g1 = link_load(motion[0], leg.mass[0], leg.com[0], leg.inertia[0])
+    f1, g1 = add(f1, f), add(g1, add(g, cross(leg.offset[0], f)))
+    tau = (
+        g1[0] + leg.armature[0] * qdd[0],
+        g2[1] + leg.armature[1] * qdd[1],
+        leg.sign * g3[1] + leg.armature[2] * qdd[2],
+    )
+    force = apply(leg.frame, turn_x(c1, s1, f1))
+    moment = add(apply(leg.frame, turn_x(c1, s1, g1)), cross(leg.hip, force))
+    return force, moment, tau
+
+
+# --- the whole robot -----------------------------------------------------------------------------
+@kernel
+def inverse_dynamics(model, w, wd, a, q, qd, qdd):
+    """Wrench on the base and joint torques that a motion asks for, with no load on the feet.
+
+    `w`, `wd`, `a` (3-vectors, base axes): angular velocity and acceleration of the base, acceleration
+    of its origin *less gravity*. `q`, `qd`, `qdd`: `(legs, 3)`. Returns `(force, moment)` at the base
+    origin in base axes and the torques `(legs, 3)`: the rows of M q̈ + h.
+    """
+    n = q.shape[0]
+    tau = np.empty((n, 3))
+    force, moment = link_load((w, wd, a), model.base_mass[0], vec(model.base_com), rows(model.base_inertia))
+    for k in range(n):
+        leg = leg_of(model, k)
+        turns = leg_turns(q[k], leg.sign)
+        motion = links_motion(leg, turns, w, wd, a, vec(qd[k]), vec(qdd[k]))
+        f, g, t = leg_load(turns, vec(qdd[k]), leg, motion, NO_LOAD)
+        force, moment = add(force, f), add(moment, g)
+        tau[k, 0], tau[k, 1], tau[k, 2] = t
+    return force, moment, tau
+
+
+class Dynamics(NamedTuple):
+    """What a motion asks for, and where the feet are; base axes, arrays for `legs` legs."""
+
+    wrench: np.ndarray
+    """`(6,)` force [N] and moment about the base origin [N·m] on the base, feet unloaded."""
+    tau: np.ndarray
+    """`(legs, 3)` joint torques [N·m], feet unloaded."""
+    feet: np.ndarray
+    """`(legs, 3)` base origin → foot centre [m]."""
+    columns: np.ndarray
+    """`(legs, 3, 3)` rows: velocity of the foot centre per joint rate (columns of its Jacobian) [m]."""
+
+
+@kernel
+def dynamics_in(numbers):
+    """The `Dynamics` packed in one array, as views."""
+    n = (numbers.size - 6) // 15
+    return Dynamics(
+        numbers[:6],
+        numbers[6 : 6 + 3 * n].reshape(n, 3),
+        numbers[6 + 3 * n : 6 + 6 * n].reshape(n, 3),
+        numbers[6 + 6 * n :].reshape(n, 3, 3),
+    )
+
+
+def state_numbers(
+    w: Float[np.ndarray, "3"],
+    wd: Float[np.ndarray, "3"],
+    a: Float[np.ndarray, "3"],
+    q: Float[np.ndarray, "legs 3"],
+    qd: Float[np.ndarray, "legs 3"],
+    qdd: Float[np.ndarray, "legs 3"],
+) -> Float[np.ndarray, "numbers"]:
+    """The arguments of `inverse_dynamics` in one array, as `dynamics_of` takes them."""
+    return np.concatenate([w, wd, a, q.ravel(), qd.ravel(), qdd.ravel()])
+
+
+@kernel
+def dynamics_of(packed, numbers):
+    """The packed `Dynamics` of a packed robot for `state_numbers`: inverse dynamics, feet and Jacobians.
+
+    The same figures as `inverse_dynamics`; two arrays in and one out cost far less than its arguments do.
+    """
+    n = int(packed[0])
+    w, wd, a = vec_at(numbers, 0), vec_at(numbers, 3), vec_at(numbers, 6)
+    out = np.empty(6 + 15 * n)
+    mass, com, inertia = base_at(packed)
+    force, moment = link_load((w, wd, a), mass, com, inertia)
+    for k in range(n):
+        leg = leg_at(packed, k)
+        i = 9 + 3 * k
+        turns = leg_turns(vec_at(numbers, i), leg.sign)
+        qd, qdd = vec_at(numbers, i + 3 * n), vec_at(numbers, i + 6 * n)
+        w0, wd0, a0 = motion_at_hip(leg, w, wd, a)  # `links_motion`, written out: an eighth faster
+        bias = bias_motion(turns, qd, leg.offset, leg.sign, w0, wd0, a0)
+        motion = with_accelerations(turns, bias, qdd, leg.offset, leg.sign)
+        f, g, tau = leg_load(turns, qdd, leg, motion, NO_LOAD)
+        force, moment = add(force, f), add(moment, g)
+        foot, c1, c2, c3 = foot_and_columns(turns, leg.offset, leg.sign)
+        write(out, 6 + 3 * k, tau)
+        write(out, 6 + 3 * n + 3 * k, add(leg.hip, apply(leg.frame, foot)))
+        at = 6 + 6 * n + 9 * k
+        write(out, at, apply(leg.frame, c1))
+        write(out, at + 3, apply(leg.frame, c2))
+        write(out, at + 6, apply(leg.frame, c3))
+    write(out, 0, force)
+    write(out, 3, moment)
+    return out
+
+
+@kernel
+def solve_columns(c1, c2, c3, b):
+    """x with c1 x₁ + c2 x₂ + c3 x₃ = b, by cofactors; near a singular pose the answer stays bounded.
+
+    The volume below which a pose counts as singular is 1 % of the product of the column lengths.
+    """
+    n23 = cross(c2, c3)
+    volume = dot(c1, n23)
+    floor = 0.01 * math.sqrt(dot(c1, c1) * dot(c2, c2) * dot(c3, c3)) + 1e-12
+    if abs(volume) < floor:
+        volume = math.copysign(floor, volume)
+    return scale(1.0 / volume, (dot(b, n23), dot(b, cross(c3, c1)), dot(b, cross(c1, c2))))
+
+
+@kernel
+def joint_accelerations(packed, w, wd, a, q, qd, feet_a):
+    """q̈ `(legs, 3)` that gives the foot centres wanted accelerations: J q̈ = a_foot − (what q̈ = 0 gives).
+
+    `feet_a`: `(legs, 3)`, base axes, *less gravity* as `a`; the rest as for `inverse_dynamics`.
+    """
+    n = q.shape[0]
+    qdd = np.empty((n, 3))
+    for k in range(n):
+        leg = leg_at(packed, k)
+        turns = leg_turns(q[k], leg.sign)
+        w0, wd0, a0 = motion_at_hip(leg, w, wd, a)
+        bias = bias_motion(turns, vec(qd[k]), leg.offset, leg.sign, w0, wd0, a0)
+        short = sub(apply_t(leg.frame, vec(feet_a[k])), foot_acceleration(turns, bias, leg.offset))
+        _, c1, c2, c3 = foot_and_columns(turns, leg.offset, leg.sign)
+        write(qdd[k], 0, solve_columns(c1, c2, c3, short))
+    return qdd

@@ -1,0 +1,1 @@
+"""Scene + Robot → a planned climb, one foot at a time (thesis, section 6.3)."""

@@ -1,0 +1,1 @@
+"""JSON points ↔ LegCycle: the closed path of a foot (row J3)."""

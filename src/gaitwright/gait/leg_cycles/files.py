@@ -1,0 +1,126 @@
+"""Leg cycles as JSON files that people edit and share: limited, checked, the wrong point named (row J3).
+
+```json
+{"about": "a low swing",
+ "points": [[0, -0.5, 0], [0.3, -0.3, 0.1], [0.7, 0.3, 0.1], [1, 0.5, 0]],
+ "hind": [[0, -0.5, 0], [0.3, -0.3, 0.2], [0.7, 0.3, 0.2], [1, 0.5, 0]]}
+```
+A point is: share of the swing, forward in strides, height in body heights (`leg_cycle.py`). `about`
+and `hind` may be left out; the name of the cycle is that of the file.
+"""
+
+import json
+import re
+from functools import cache
+from pathlib import Path
+from typing import Annotated
+
+import msgspec
+from msgspec import Meta
+
+from gaitwright.errors import BadFile, unknown
+from gaitwright.files import whole
+from gaitwright.gait.leg_cycles.leg_cycle import LegCycle, Point, fault_of
+
+MAX_BYTES = 100_000
+MAX_LISTED = 1000
+"""More points than this are not even counted."""
+BUILT_IN = Path(__file__).parent / "cycles"
+DEFAULT = "trot"
+"""The cycle of every skill that has none of its own."""
+
+Points = Annotated[list[Point], Meta(max_length=MAX_LISTED)]
+
+
+class CycleEntry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What a file holds."""
+
+    points: Points
+    about: Annotated[str, Meta(max_length=200)] = ""
+    hind: Points | None = None
+
+
+def cycle_names() -> tuple[str, ...]:
+    """Names of the cycles that come along."""
+    return tuple(sorted(path.stem for path in BUILT_IN.glob("*.json")))
+
+
+def load_cycle(name_or_path: str | Path) -> LegCycle:
+    """The leg cycle of that name, or the one in that JSON file.
+
+    Raises `WrongUse` for a name that does not exist and `BadFile` for a file that cannot be used.
+    """
+    asked = str(name_or_path)
+    if asked in cycle_names():
+        return built_in(asked)
+    if isinstance(name_or_path, Path) or Path(asked).suffix == ".json" or Path(asked).is_file():
+        return read(asked)
+    raise unknown("leg cycle", asked, (*cycle_names(), "or the path of a JSON file"))
+
+
+def cycle_of(skill: str) -> LegCycle:
+    """The cycle of a skill: its own where one comes along under its name, else that of trot."""
+    return built_in(skill if skill in cycle_names() else DEFAULT)
+
+
+@cache
+def built_in(name: str) -> LegCycle:
+    """A cycle that comes along."""
+    return read(str(BUILT_IN / f"{name}.json"))
+
+
+def save_cycle(cycle: LegCycle, path: str | Path) -> Path:
+    """Writes a cycle to a JSON file, a point a line; complete or not at all."""
+    fields = [f'"about": {json.dumps(cycle.about, ensure_ascii=False)}'] if cycle.about else []
+    fields.append(f'"points": {laid_out(cycle.points)}')
+    if cycle.hind is not None:
+        fields.append(f'"hind": {laid_out(cycle.hind)}')
+    with whole(Path(path)) as draft:
+        draft.write_text("{" + ",\n ".join(fields) + "}\n", encoding="utf-8")
+    return Path(path)
+
+
+def laid_out(points: tuple[Point, ...]) -> str:
+    """Points as JSON, a line for each."""
+    rows = [[int(x) if x == int(x) else x for x in point] for point in points]
+    return "[\n  " + ",\n  ".join(json.dumps(row) for row in rows) + "]"
+
+
+# --- reading ---------------------------------------------------------------------------------------
+def read(path: str) -> LegCycle:
+    """The cycle in a JSON file. Raises `BadFile` with one sentence."""
+    content, name = content_of(path), Path(path).name
+    try:
+        entry = msgspec.json.decode(content, type=CycleEntry)
+    except msgspec.ValidationError as error:
+        raise BadFile(f"leg cycle {path}: {sentence(str(error), name)}") from None
+    except (msgspec.DecodeError, RecursionError) as error:
+        raise BadFile(f"leg cycle {path} is not JSON: {error}") from None
+    points, hind = tuple(entry.points), None if entry.hind is None else tuple(entry.hind)
+    fault = fault_of(points, name, hind)
+    if fault:
+        raise BadFile(f"leg cycle {path}: {fault}")
+    return LegCycle(Path(path).stem, points, hind, entry.about)
+
+
+def content_of(path: str) -> bytes:
+    """What the file holds, at most `MAX_BYTES`."""
+    try:
+        with open(path, "rb") as file:
+            content = file.read(MAX_BYTES + 1)
+    except (OSError, ValueError) as error:
+        raise BadFile(f"leg cycle {path} cannot be read: {getattr(error, 'strerror', error)}") from None
+    if len(content) > MAX_BYTES:
+        raise BadFile(f"leg cycle {path} is larger than the limit of {MAX_BYTES / 1e3:g} kB")
+    return content
+
+
+def sentence(message: str, name: str) -> str:
+    """msgspec's "Expected … - at `$.points[4][1]`" with the point named first."""
+    found = re.fullmatch(r"(.*) - at `\$\.(points|hind)\[(\d+)\](?:\[(\d)\])?`", message)
+    if not found:
+        return message
+    what, part, point, number = found.groups()
+    of = f"the hind legs of {name}" if part == "hind" else name
+    which = f", {('share of the swing', 'forward', 'height')[int(number)]}" if number else ""
+    return f"point {int(point) + 1} of {of}{which}: {what[0].lower()}{what[1:]}"

@@ -1,0 +1,1 @@
+"""Compiled kernels, geometry, matrices, curves and small solvers: numbers that know no robot."""

@@ -1,0 +1,1 @@
+"""Measured + memory → Sensed and what is known of the ground."""

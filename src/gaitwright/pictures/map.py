@@ -1,0 +1,116 @@
+"""The map: the ground from above, what stands on it, and the way."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch, Polygon, Rectangle
+
+from gaitwright.ground.scene import SEEN_STEP, Scene
+from gaitwright.model.kinematics import feet
+from gaitwright.numerics.geometry import rotation
+from gaitwright.pictures.style import EARTH, INK, MAP, SKILLS, dress
+from gaitwright.record.metrics import heading_over_time, stretches, touchdowns
+from gaitwright.record.recording import Recording
+
+
+def draw_map(ax: Axes, r: Recording, scene: Scene) -> None:
+    """The ground from above, what stands on it, footprints, and the way in the colours of the skills."""
+    bounds = view(r)
+    draw_ground(ax, r, scene, bounds)
+    draw_footprints(ax, r)
+    draw_bodies(ax, r)
+    way = r["position_w"][:, :2]
+    ax.plot(*way.T, color="white", linewidth=5.0, zorder=4, solid_capstyle="round")
+    for start, end in stretches(r["skill"]):
+        piece = way[start : end + 1]
+        colour = SKILLS.get(r.skills[int(r["skill"][start])], INK)
+        ax.add_collection(LineCollection([piece], colors=colour, linewidths=2.6, zorder=5, capstyle="round"))
+    ends = {"edgecolors": "white", "linewidths": 1.2, "zorder": 6}
+    ax.scatter(*way[0], s=110, marker="o", c=INK, **ends)
+    ax.scatter(*way[-1], s=230, marker="*" if r.arrived else "X", c=INK, **ends)
+    ax.set(xlim=bounds[::2], ylim=bounds[1::2], aspect="equal", xlabel="x [m]", ylabel="y [m]")
+    dress(ax, None)
+    ax.grid(False)
+    marker: dict[str, Any] = {"color": "none", "markerfacecolor": INK, "markeredgecolor": "white"}
+    done = "arrived" if r.arrived else "end"
+    handles: list[Artist] = [
+        *(Line2D([], [], color=SKILLS.get(name, INK), linewidth=3, label=name) for name in r.skills),
+        Line2D([], [], marker="o", markersize=10, label="start", **marker),
+        Line2D([], [], marker="*" if r.arrived else "X", markersize=14, label=done, **marker),
+        Line2D([], [], marker=".", color="none", markerfacecolor=INK, markeredgewidth=0, label="footfalls"),
+    ]
+    if scene.boxes:
+        handles.append(Patch(facecolor="#d9c9a8", edgecolor="#a8946c", label="low: stepped on"))
+    if scene.obstacles(r.robot, SEEN_STEP):
+        handles.append(Patch(facecolor="#c9ced6", edgecolor=INK, hatch="////", label="high: walked around"))
+    ax.legend(
+        handles=handles, loc="upper left", ncols=len(handles), frameon=True, framealpha=0.92, edgecolor="none"
+    )
+
+
+def view(r: Recording) -> tuple[float, float, float, float]:
+    """What the map shows: the way with some room, as wide as its axes; x_min, y_min, x_max, y_max [m]."""
+    way = r["position_w"][:, :2]
+    (x_min, y_min), (x_max, y_max) = way.min(axis=0), way.max(axis=0)
+    room, wide = 2.2 * r.robot.body_length, MAP[0] / MAP[1]
+    height = max(y_max - y_min + 3 * room, (x_max - x_min + 2 * room) / wide)
+    x, y = (x_min + x_max) / 2, (y_min + y_max) / 2
+    return x - height * wide / 2, y - height / 2, x + height * wide / 2, y + height / 2
+
+
+def draw_ground(ax: Axes, r: Recording, scene: Scene, bounds: tuple[float, float, float, float]) -> None:
+    """Height as shade, low boxes as plates, obstacles hatched."""
+    ax.set_facecolor("#f4f1ea")
+    extent = (bounds[0], bounds[2], bounds[1], bounds[3])
+    x, y = np.linspace(*extent[:2], 600), np.linspace(*extent[2:], 300)
+    height = np.asarray(scene.surface.height(x[None, :], y[:, None]))
+    if np.ptp(height) > 1e-6:
+        image = ax.imshow(height, extent=extent, origin="lower", cmap=EARTH, interpolation="bilinear")
+        bar = ax.figure.colorbar(image, cax=ax.inset_axes((0.975, 0.06, 0.008, 0.8)))
+        bar.ax.yaxis.set_ticks_position("left")
+        ax.add_patch(
+            Rectangle((0.935, 0.02), 0.063, 0.93, transform=ax.transAxes, color="white", alpha=0.85, zorder=4)
+        )
+        bar.ax.set_title("z [m]", fontsize=9, color=INK)
+        bar.ax.tick_params(labelsize=9, colors=INK, length=2)
+        bar.outline.set_visible(False)
+    obstacles = set(scene.obstacles(r.robot, SEEN_STEP))
+    tallest = max((scene.top(box) for box in scene.boxes if box not in obstacles), default=1.0)
+    for box in scene.boxes:
+        if box in obstacles:
+            style = {"facecolor": "#c9ced6", "edgecolor": INK, "hatch": "////", "linewidth": 1.0}
+        else:
+            shade = 0.25 + 0.55 * max(scene.top(box), 0.0) / max(tallest, 1e-9)
+            style = {"facecolor": (0.72, 0.60, 0.36, shade), "edgecolor": "#a8946c", "linewidth": 0.8}
+        ax.add_patch(Polygon(box.corners(), zorder=2, **style))
+
+
+def draw_footprints(ax: Axes, r: Recording) -> None:
+    """A dot wherever a foot came down."""
+    dots = np.array(list(footprints(r))).reshape(-1, 2)
+    ax.scatter(*dots.T, s=7, c=INK, alpha=0.45, linewidths=0, zorder=3)
+
+
+def draw_bodies(ax: Axes, r: Recording) -> None:
+    """The outline of the body at even distances, for its size and heading."""
+    (cx, cy, _), (hx, hy, _) = r.robot.trunk
+    corners = np.array([[cx + sx * hx, cy + sy * hy] for sx, sy in ((1, 1), (-1, 1), (-1, -1), (1, -1))])
+    way, yaw = r["position_w"][:, :2], heading_over_time(r["orientation_wb"])
+    gone = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(way, axis=0), axis=1))])
+    for tick in np.searchsorted(gone, np.arange(0.0, gone[-1], 2.5 * r.robot.body_length)):
+        c, s = np.cos(yaw[tick]), np.sin(yaw[tick])
+        outline = corners @ np.array([[c, s], [-s, c]]) + way[tick]
+        ax.add_patch(Polygon(outline, facecolor=INK, edgecolor=INK, alpha=0.2, linewidth=0, zorder=3.5))
+
+
+def footprints(r: Recording) -> Iterator[tuple[float, float]]:
+    q, position, orientation = r["q"], r["position_w"], r["orientation_wb"]
+    for tick, leg in touchdowns(r["stance"] > 0.5):
+        foot_b = feet(r.robot, np.ascontiguousarray(q[tick].reshape(-1, 3)))[leg]
+        foot = position[tick] + rotation(np.ascontiguousarray(orientation[tick])) @ foot_b
+        yield float(foot[0]), float(foot[1])

@@ -1,0 +1,1 @@
+"""MotorCommand → Measured by MuJoCo."""

@@ -1,0 +1,64 @@
+"""A plant by its name: only the one that is asked for is imported."""
+
+from importlib import import_module
+from typing import Protocol, runtime_checkable
+
+from gaitwright.errors import WrongUse, unknown
+from gaitwright.ground.scene import Scene
+from gaitwright.model.robot import Robot
+from gaitwright.plant.names import PLANTS
+from gaitwright.signals import Sensed, Torques
+
+HOMES = {
+    "mujoco": ("gaitwright.plant.mujoco.simulation", "MujocoPlant"),
+    "armstrong": ("gaitwright.plant.armstrong.simulation", "ArmstrongPlant"),
+    "kinematic": ("gaitwright.plant.kinematic", "KinematicPlant"),
+}
+
+
+@runtime_checkable
+class SimulatedPlant(Protocol):
+    """Torques → Sensed, in a world that can be set back and pushed."""
+
+    dt: float
+
+    def reset(self, seed: int = 0, vary: bool = True) -> Sensed: ...
+
+    def step(self, torques: Torques) -> Sensed: ...
+
+    def push(self, force_w: tuple[float, float, float]) -> None: ...
+
+
+def make_plant(  # noqa: PLR0913 - the door to every plant; most calls name three of these
+    name: str,
+    robot: Robot,
+    scene: Scene,
+    dt: float = 0.002,
+    integrator: str | None = None,
+    timestep: float | None = None,
+    check: bool = False,
+    refresh: int | None = None,
+) -> SimulatedPlant:
+    """The plant of that name (`offers.PLANTS`) with a robot in a scene; `dt`: control period [s].
+
+    `integrator`, `refresh` and `check` are for plant `armstrong` alone; `timestep` [s] divides `dt`. Raises
+    `WrongUse` for what does not exist or does not fit.
+    """
+    if name not in PLANTS:
+        raise unknown("plant", name, PLANTS)
+    asked = {"timestep": timestep, "integrator": integrator, "refresh": refresh}
+    options: dict[str, object] = {word: value for word, value in asked.items() if value is not None}
+    if name == "kinematic" and options:
+        raise WrongUse(f"plant kinematic has no mechanics to step through: no {', '.join(options)}")
+    if name == "armstrong":
+        options["check"] = check
+    elif integrator is not None:
+        raise WrongUse(
+            f"plant {name} integrates by itself, implicitfast; {integrator!r} goes with plant armstrong"
+        )
+    elif refresh is not None:
+        raise WrongUse(
+            f"plant {name} has no slow coefficients to refresh at every {refresh}. step; plant armstrong has"
+        )
+    module, cls = HOMES[name]
+    return getattr(import_module(module), cls)(robot, scene, dt, **options)

@@ -1,0 +1,1 @@
+"""Laps ↔ file: recordings, and the figures made of them."""

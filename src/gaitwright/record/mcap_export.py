@@ -1,0 +1,180 @@
+"""Recording → MCAP with ROS 2 messages in CDR, which Foxglove and Rerun open as they are.
+
+Topics: `/joint_states` (sensor_msgs/JointState: angles, rates, torques), `/tf` (tf2_msgs/TFMessage: world →
+base → the links of every leg), `/tf_static` (their feet), `/gaitwright/changes` (JSON: skill and driver,
+whenever one changes). Needs the extra `record`.
+"""
+
+import json
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from mcap_ros2.writer import Writer
+
+from gaitwright.files import whole
+from gaitwright.model.robot import Robot
+from gaitwright.numerics.geometry import quaternion_of
+from gaitwright.plant.mujoco.world import JOINTS
+from gaitwright.record.metrics import stretches
+from gaitwright.record.recording import Recording
+
+RATE = 100.0
+"""Messages per second of simulated time."""
+
+HEADER = """
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
+"""
+JOINT_STATE = f"""std_msgs/Header header
+string[] name
+float64[] position
+float64[] velocity
+float64[] effort
+{HEADER}"""
+TF_MESSAGE = f"""geometry_msgs/TransformStamped[] transforms
+================================================================================
+MSG: geometry_msgs/TransformStamped
+std_msgs/Header header
+string child_frame_id
+geometry_msgs/Transform transform
+================================================================================
+MSG: geometry_msgs/Transform
+geometry_msgs/Vector3 translation
+geometry_msgs/Quaternion rotation
+================================================================================
+MSG: geometry_msgs/Vector3
+float64 x
+float64 y
+float64 z
+================================================================================
+MSG: geometry_msgs/Quaternion
+float64 x
+float64 y
+float64 z
+float64 w
+{HEADER}"""
+CHANGES = {
+    "title": "gaitwright.Changes",
+    "type": "object",
+    "properties": {"time": {"type": "number"}, "skill": {"type": "string"}, "driver": {"type": "string"}},
+    "required": ["time", "skill", "driver"],
+}
+
+
+def export_mcap(recording: Recording, path: str | Path) -> Path:
+    """Writes the recording as `.mcap`, thinned to 100 Hz; complete or not at all."""
+    with whole(Path(path)) as draft, draft.open("wb") as file, Writer(file) as writer:
+        write_changes(writer, recording.sound())
+        write_states(writer, recording.sound())
+        facts = {"robot": recording.robot.name, "scene": recording.scene, "seed": str(recording.seed)}
+        writer.add_metadata("gaitwright", facts | {"stopped_because": recording.stopped_because})
+    return Path(path)
+
+
+def write_states(writer: Writer, r: Recording) -> None:
+    """Joint states and transforms, 100 times a second."""
+    joint_state = writer.register_msgdef("sensor_msgs/msg/JointState", JOINT_STATE)
+    tf_message = writer.register_msgdef("tf2_msgs/msg/TFMessage", TF_MESSAGE)
+    names = joint_names(r.robot)
+    channels = [r[name] for name in ("time", "q", "qd", "tau", "position_w", "orientation_wb")]
+    ticks = range(0, len(r), max(1, round(1.0 / (RATE * r.dt))))
+    fixed = {"transforms": [transform(0, *frame) for frame in feet_on_shanks(r.robot)]}
+    writer.write_message("/tf_static", tf_message, fixed, nanoseconds(r["time"][0]))
+    for count, tick in enumerate(ticks):
+        time, q, qd, tau, position, orientation = (channel[tick] for channel in channels)
+        at = nanoseconds(time)
+        header = {"stamp": stamp(at), "frame_id": "world"}
+        joints = {"header": header, "name": names, "position": q, "velocity": qd, "effort": tau}
+        writer.write_message("/joint_states", joint_state, plain(joints), at, at, count)
+        frames = transforms(r.robot, q.reshape(-1, 3), position, orientation)
+        tf = {"transforms": [transform(at, *frame) for frame in frames]}
+        writer.write_message("/tf", tf_message, tf, at, at, count)
+
+
+def write_changes(writer: Writer, r: Recording) -> None:
+    """Which skill by which driver, whenever one of them changes."""
+    raw = writer._writer  # the ROS 2 writer offers no JSON; the one it wraps does
+    schema = raw.register_schema("gaitwright.Changes", "jsonschema", json.dumps(CHANGES).encode())
+    channel = raw.register_channel("/gaitwright/changes", "json", schema)
+    for start, _ in stretches(r["skill"] * len(r.drivers) + r["driver"]):
+        skill, driver = r.skills[int(r["skill"][start])], r.drivers[int(r["driver"][start])]
+        change = {"time": float(r["time"][start]), "skill": skill, "driver": driver}
+        at = nanoseconds(r["time"][start])
+        raw.add_message(channel, at, json.dumps(change).encode(), at)
+
+
+def joint_names(robot: Robot) -> list[str]:
+    """`FL_hip1`, `FL_hip2`, `FL_knee`, `FR_hip1`, …"""
+    return [f"{leg}_{joint}" for leg in robot.legs for joint in JOINTS]
+
+
+Frame = tuple[str, str, np.ndarray, np.ndarray]
+"""Parent, child, translation [m], rotation (w, x, y, z)."""
+
+
+def transforms(robot: Robot, q: np.ndarray, position: np.ndarray, orientation: np.ndarray) -> Iterable[Frame]:
+    """World → base → hip 1 → hip 2 → knee, for every leg."""
+    yield "world", "base", position, orientation
+    for k, leg in enumerate(robot.legs):
+        hip1, hip2, knee = (f"{leg}_{joint}" for joint in JOINTS)
+        yield "base", hip1, robot.hip[k], times(quaternion_of(robot.leg_frame[k]), about(0, q[k, 0]))
+        yield hip1, hip2, robot.offset[k, 0], about(1, q[k, 1])
+        yield hip2, knee, robot.offset[k, 1], about(1, robot.sign[k] * q[k, 2])
+
+
+def feet_on_shanks(robot: Robot) -> Iterable[Frame]:
+    """Knee → foot, which never changes."""
+    for k, leg in enumerate(robot.legs):
+        yield f"{leg}_{JOINTS[2]}", f"{leg}_foot", robot.offset[k, 2], np.array([1.0, 0.0, 0.0, 0.0])
+
+
+def about(axis: int, angle: float) -> np.ndarray:
+    """The quaternion of a turn by `angle` [rad] about x (0) or y (1)."""
+    out = np.array([np.cos(angle / 2), 0.0, 0.0, 0.0])
+    out[1 + axis] = np.sin(angle / 2)
+    return out
+
+
+def times(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """The product of two quaternions: first `b`, then `a`."""
+    (aw, ax, ay, az), (bw, bx, by, bz) = a.tolist(), b.tolist()
+    return np.array(
+        [
+            aw * bw - ax * bx - ay * by - az * bz,
+            aw * bx + ax * bw + ay * bz - az * by,
+            aw * by + ay * bw + az * bx - ax * bz,
+            aw * bz + az * bw + ax * by - ay * bx,
+        ]
+    )
+
+
+# --- messages --------------------------------------------------------------------------------------
+def transform(
+    at: int, parent: str, child: str, translation: np.ndarray, rotation: np.ndarray
+) -> dict[str, Any]:
+    """One TransformStamped."""
+    x, y, z = map(float, translation)
+    qw, qx, qy, qz = map(float, rotation)
+    moved = {"translation": {"x": x, "y": y, "z": z}, "rotation": {"x": qx, "y": qy, "z": qz, "w": qw}}
+    return {"header": {"stamp": stamp(at), "frame_id": parent}, "child_frame_id": child, "transform": moved}
+
+
+def plain(message: dict[str, Any]) -> dict[str, Any]:
+    """Arrays as lists."""
+    return {key: value.tolist() if isinstance(value, np.ndarray) else value for key, value in message.items()}
+
+
+def nanoseconds(time: float) -> int:
+    return round(time * 1e9)
+
+
+def stamp(at: int) -> dict[str, int]:
+    return {"sec": at // 1_000_000_000, "nanosec": at % 1_000_000_000}

@@ -1,0 +1,1 @@
+"""Two skillbooks → one: nothing that either learned is lost."""

@@ -1,0 +1,165 @@
+"""Learning into a file: every lesson is on the disk before anyone is told that it was learned."""
+
+import sqlite3
+from contextlib import suppress
+from dataclasses import replace
+from pathlib import Path
+from typing import Literal
+
+from gaitwright.errors import BadFile, WrongUse
+from gaitwright.knowledge.correction import teach
+from gaitwright.knowledge.json_form import MAX_EVENTS
+from gaitwright.knowledge.modifier import Learned, Lesson
+from gaitwright.knowledge.repair import mend
+from gaitwright.knowledge.restructure import Mended
+from gaitwright.knowledge.rules import Rulebook
+from gaitwright.skillbook import rows
+from gaitwright.skillbook.book import Skillbook, about_of, book_of
+from gaitwright.skillbook.entries import encoded, event_entries, rulebook_entry, step_entry
+from gaitwright.skillbook.history import Step, settled
+from gaitwright.skillbook.schema import MAX_BYTES, connected, located, migrate, number, sentences, version_of
+
+PATIENCE = 2000
+"""So long a beginning learner waits for those who read the file at that moment [ms]."""
+
+
+class Ledger:
+    """A skillbook file that one process teaches; a context manager. `book` is all that is on the disk.
+
+    It holds the file's write lock from lesson to lesson, which the system takes back at any death. Others
+    can read meanwhile. Use it in the thread that opened it.
+    """
+
+    def __init__(self, path: Path, db: sqlite3.Connection, book: Skillbook) -> None:
+        self.path, self._db, self.book = path, db, book
+        self._seen = number(db, "data_version")
+        self._lost = ""
+
+    def __enter__(self) -> "Ledger":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def record(
+        self,
+        lesson: Lesson,
+        learned: Learned | Mended,
+        how: Literal["taught", "learned", "mended"] = "taught",
+    ) -> Skillbook:
+        """Stores what one lesson made of the current rulebook; returns when it is durable.
+
+        `how` says what made it: `teach`, `learn`, or `mend` of the contradiction just recorded. Raises
+        `WrongUse` where `learned` does not go on from `book`, and `BadFile` where the file cannot be written;
+        then nothing was stored.
+        """
+        last = self.book.steps[-1]
+        note = learned.sentence if isinstance(learned, Mended) else ""
+        if isinstance(learned, Learned) and learned.trouble is not None:
+            note = learned.trouble.sentence
+        if (how == "mended") != isinstance(learned, Mended):
+            raise WrongUse(f"a step {how!r} comes with what `{'mend' if how == 'mended' else 'teach'}` gave")
+        if how == "mended" and (last.lesson is None or not last.note or last.how == "mended"):
+            raise WrongUse("a step is mended right after one that ended in a contradiction")
+        if how == "mended" and last.lesson is not None:
+            lesson = replace(lesson, id=lesson.id or last.lesson.id)
+        lesson = settled(lesson, self.book.rulebook.lessons)
+        return self._append(Step(how, lesson, None, note), learned.book)
+
+    def edit(self, rulebook: Rulebook, note: str) -> Skillbook:
+        """Stores a rulebook that was changed in another way than by a lesson, and says which."""
+        rulebook_entry(rulebook)
+        return self._append(Step("edited", None, replace(rulebook, events=()), note), rulebook)
+
+    def teach(self, lesson: Lesson) -> Learned:
+        """Teaches and records."""
+        learned = teach(self.book.rulebook, lesson)
+        self.record(lesson, learned)
+        return learned
+
+    def mend(self, lesson: Lesson, learned: Learned) -> Mended:
+        """Mends the contradiction that a lesson just recorded ended in, and records that."""
+        if learned.trouble is None:
+            raise WrongUse("nothing contradicted the lesson: there is nothing to mend")
+        mended = mend(self.book.rulebook, learned.trouble, lesson.blame)
+        self.record(lesson, mended, "mended")
+        return mended
+
+    def close(self) -> None:
+        """Leaves one file without a log beside it, unless someone is reading it now."""
+        with suppress(sqlite3.Error):
+            self._db.execute("ROLLBACK")
+        with suppress(sqlite3.Error):
+            self._db.execute("PRAGMA journal_mode=DELETE")
+        self._db.close()
+
+    def _append(self, step: Step, rulebook: Rulebook) -> Skillbook:
+        """The book with one more step, once it is on the disk."""
+        before = self.book.rulebook
+        known = len(before.events)
+        if rulebook.events[:known] != before.events:
+            raise WrongUse(f"what was learned does not go on from what {self.path} holds")
+        if len(rulebook.events) > MAX_EVENTS:
+            raise WrongUse(f"a skillbook holds at most {MAX_EVENTS} events")
+        if self._lost:
+            raise BadFile(self._lost)
+        step = replace(step, events=rulebook.events[known:])
+        book = replace(self.book, rulebook=rulebook, steps=(*self.book.steps, step))
+        added = rows.step_rows(len(self.book.steps), step_entry(step), event_entries(step.events))
+        added["book", (0,)] = encoded(about_of(book))
+        with sentences(self.path):
+            try:
+                rows.change(self._db, before, rulebook)
+                rows.put(self._db, added)
+                self._db.execute("COMMIT")
+            except BaseException:  # an interrupt too: what was not acknowledged must not be half there
+                self._restart()
+                raise
+        self.book = book
+        self._resume()
+        return book
+
+    def _restart(self) -> None:
+        """Back to what is on the disk."""
+        with suppress(sqlite3.Error):
+            self._db.execute("ROLLBACK")
+        self._resume()
+
+    def _resume(self) -> None:
+        """Takes the write lock again; should another have had it in between, this ledger is over."""
+        try:
+            self._db.execute("BEGIN IMMEDIATE")
+        except sqlite3.Error as error:
+            self._lost = f"{self.path} cannot be taught any more: {error}"
+            return
+        if number(self._db, "data_version") != self._seen:
+            self._lost = f"{self.path} was changed by another process: open it again to go on"
+
+
+def open_for_learning(path: str | Path) -> Ledger:
+    """The book in a file, to be taught by this process alone. Raises `BadFile` where it is no book, a damaged
+    one, or taught already."""
+    real = located(path)
+    inode = real.stat().st_ino
+    with sentences(real):
+        db = connected(real, "rw")
+        try:
+            _prepare(db, real)
+            if real.stat().st_ino != inode:
+                raise BadFile(f"{path} was replaced while it was opened: open it again")
+            return Ledger(real, db, book_of(rows.read(db, str(path)), str(path)))
+        except BaseException:
+            db.close()
+            raise
+
+
+def _prepare(db: sqlite3.Connection, path: Path) -> None:
+    """Checks the file, brings it to the newest version, and takes its write lock."""
+    db.execute("BEGIN IMMEDIATE")
+    migrate(db, version_of(db, path))
+    db.execute("COMMIT")
+    db.execute(f"PRAGMA busy_timeout={PATIENCE}")
+    db.execute("PRAGMA journal_mode=WAL")
+    db.execute("PRAGMA busy_timeout=0")
+    db.execute(f"PRAGMA max_page_count={MAX_BYTES // number(db, 'page_size')}")
+    db.execute("BEGIN IMMEDIATE")

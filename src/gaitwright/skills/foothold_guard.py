@@ -1,0 +1,100 @@
+"""Stops before ground on which no foot can stand, and says so (row J8)."""
+
+import math
+from dataclasses import dataclass, replace
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+from jaxtyping import Float
+
+from gaitwright.ground.foothold_map import Footing
+from gaitwright.model.robot import Robot
+from gaitwright.numerics.geometry import GRAVITY, heading, rotation
+from gaitwright.signals import Route, Sensed, SkillCall
+from gaitwright.skills.library import find_skill, gait_of
+
+WIDEST = 1.1
+"""A stretch without a foothold up to this long is stepped over, in body heights."""
+STEP = 0.5
+"""A step up or down to the next foothold is at most this high, in body heights."""
+ASIDE = 0.15
+"""Footholds this far beside a foot's track will do, in body heights."""
+BRAKING = 0.1
+"""Deceleration that is counted on, as a share of gravity."""
+ROOM = 0.3
+"""Room to keep before the last foothold, in body heights."""
+
+
+@runtime_checkable
+class Choice(Protocol):
+    """Whatever chooses a skill."""
+
+    def choose(self, route: Route, sensed: Sensed, now: SkillCall | None = None) -> SkillCall: ...
+
+
+@dataclass(frozen=True)
+class Cautious:
+    """Another chooser's choice, unless it leads where no foot can stand."""
+
+    chooser: Choice
+    robot: Robot
+    footing: Footing
+
+    def choose(self, route: Route, sensed: Sensed, now: SkillCall | None = None) -> SkillCall:
+        call = self.chooser.choose(route, sensed, now)
+        halt = self.trouble(call, route, sensed)
+        if halt is None:
+            return call
+        gait = gait_of(find_skill("stop", self.robot), self.robot)
+        return replace(call, skill="stop", gait=gait, velocity=(0.0, 0.0), turn=0.0, because=halt, halt=halt)
+
+    def trouble(self, call: SkillCall, route: Route, sensed: Sensed) -> str | None:
+        """Why the robot must not go on with a call, or `None`."""
+        speed = math.hypot(*call.velocity)
+        if speed <= 0.0 or not self.footing.is_known:
+            return None
+        height = self.robot.height
+        far = speed * call.gait.period + speed**2 / (2.0 * BRAKING * GRAVITY) + (ROOM + WIDEST) * height
+        place = sensed.position_w[:2]
+        if route.path:
+            far = min(far, float(math.dist(place, route.path[0])))
+        yaw = heading(rotation(sensed.orientation_wb))
+        way = yaw + math.atan2(call.velocity[1], call.velocity[0])
+        c, s = math.cos(yaw), math.sin(yaw)
+        level = float(sensed.position_w[2]) - height
+        for foot in self.robot.stance[:, :2] @ np.array([[c, s], [-s, c]]):
+            told = track_trouble(self.footing, place + foot, level, way, far, height)
+            if told:
+                return told
+        return None
+
+
+def track_trouble(
+    footing: Footing, start: Float[np.ndarray, "2"], level: float, way: float, far: float, height: float
+) -> str | None:
+    """What lies in the way of a foot that goes straight `way` [rad] from `start` for `far` [m], or `None`.
+
+    `level`: of the ground that the robot stands on [m].
+    """
+    spacing = float(footing.ground.place[2])
+    along = np.arange(0.0, far, spacing)
+    ahead, beside = np.array([math.cos(way), math.sin(way)]), np.array([-math.sin(way), math.cos(way)])
+    lanes = [start + along[:, None] * ahead + k * ASIDE * height * beside for k in (0.0, 1.0, -1.0)]
+    stands = np.stack([footing.may_stand(*lane.T) for lane in lanes])
+    levels = np.stack([footing.height(*lane.T) for lane in lanes])
+    last = 0.0
+    for i, at in enumerate(along):
+        fit = stands[:, i] & (np.abs(levels[:, i] - level) < STEP * height)
+        if fit.any():
+            last, level = float(at), float(levels[int(fit.argmax()), i])
+        elif at - last > WIDEST * height:
+            rise = float(levels[0, i]) - level
+            return f"no foothold ahead: {named(rise, height)} begins {last:.2f} m ahead of a foot"
+    return None
+
+
+def named(rise: float, height: float) -> str:
+    """What ground is called that lies so much higher or lower [m]."""
+    if abs(rise) < STEP * height:
+        return f"broken ground, wider than the {WIDEST * height:.2f} m that are stepped over,"
+    return f"a wall of {rise:.2f} m" if rise > 0.0 else f"a drop of {-rise:.2f} m"

@@ -1,0 +1,60 @@
+"""Ground as feet see it: no plane has an edge, every step has one, and heights are the scene's."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gaitwright.ground.foothold_map import EDGE, MARGIN, Footing, edges, height_at, nearest
+from gaitwright.ground.scene import Scene, load_scene
+from gaitwright.ground.terrain import Box, Flat
+from oracles import robot_called
+
+DOG = robot_called("dog")
+STEP = EDGE * DOG.height
+
+
+@given(st.floats(-2.0, 2.0), st.floats(-2.0, 2.0))
+def test_no_plane_has_an_edge(a: float, b: float) -> None:
+    x, y = 0.02 * np.arange(12), 0.02 * np.arange(10)
+    assert not edges(a * x[None, :] + b * y[:, None], STEP).any()
+
+
+@given(st.floats(1.05, 5.0), st.sampled_from([-1.0, 1.0]), st.booleans())
+def test_every_step_has_one_on_both_sides(times: float, sign: float, along: bool) -> None:
+    heights = np.zeros((9, 20))
+    heights[:, 10:] = sign * times * STEP
+    found = edges(heights if along else heights.T.copy(), STEP)
+    found = found if along else found.T
+    columns = np.flatnonzero(found.all(axis=0))
+    assert columns.tolist() == list(range(10 - MARGIN, 10 + MARGIN))
+
+
+def test_heights_are_the_scenes() -> None:
+    scene = load_scene("rough:0.05", seed=3)
+    footing = Footing.of(scene, DOG)
+    rng = np.random.default_rng(1)
+    x, y = rng.uniform(-3.0, 9.0, 200), rng.uniform(-3.0, 3.0, 200)
+    mine = [height_at(footing.ground, a, b) for a, b in zip(x, y, strict=True)]
+    np.testing.assert_allclose(mine, scene.height(x, y), atol=0.012)
+    rows, columns = footing.nodes(x, y)
+    for a, b, row, column in zip(x, y, rows, columns, strict=True):
+        assert nearest(footing.ground, a, b) == (row, column)
+
+
+@pytest.mark.parametrize("name", ["flat", "slope:12", "cross-slope:-8"])
+def test_a_plane_needs_no_grid(name: str) -> None:
+    assert not Footing.of(load_scene(name), DOG).is_known
+
+
+def test_a_field_too_wide_for_a_grid_is_walked_blind() -> None:
+    wide = Scene("wide", Flat(), (Box(5.0, 0.0, 0.0, 1.0, 1.0, 0.1),), (-500.0, -500.0, 500.0, 500.0))
+    assert not Footing.of(wide, DOG).is_known
+
+
+def test_no_foot_stands_at_the_rim_of_a_block() -> None:
+    scene = Scene("one", Flat(), (Box(1.0, 0.0, 0.3, 0.6, 0.6, 0.1),), (-1.0, -2.0, 3.0, 2.0))
+    footing = Footing.of(scene, DOG)
+    x, y = scene.boxes[0].corners().T
+    assert not footing.may_stand(x, y).any()
+    assert footing.may_stand(np.array([1.0, 0.2]), np.array([0.0, 0.0])).all()
