@@ -27,7 +27,8 @@ from gaitwright.model.reach import reach
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY
 from gaitwright.plant.registry import make_plant
-from gaitwright.record.recording import Recording, walk
+from gaitwright.record.recording import Recording
+from gaitwright.session import walk
 from gaitwright.signals import Mission
 from gaitwright.skills.chooser import fixed_skill
 from gaitwright.skills.library import LIBRARY, find_skill, gait_of, skill_names, speed_scale

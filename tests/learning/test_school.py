@@ -89,7 +89,7 @@ def test_what_was_learned_without_physics_drives_a_robot_with_it():
     for _ in range(250):
         lap, mind = think(brain, mind, sensed)
         laps.append(lap)
-        sensed = plant.step(lap.torques)
+        sensed = plant.step(lap.command)
     assert {lap.call.driver for lap in laps} == {"hybrid"}
     assert any(lap.call.because.startswith("rule trot") for lap in laps)
-    assert all(lap.torques.status.startswith("solved") for lap in laps)
+    assert all(lap.command.status.startswith("solved") for lap in laps)

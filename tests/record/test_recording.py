@@ -14,7 +14,8 @@ from gaitwright.model.kinematics import feet
 from gaitwright.numerics.geometry import rotation
 from gaitwright.plant.mujoco.simulation import MujocoPlant
 from gaitwright.record import metrics as figures
-from gaitwright.record.recording import Recording, load, walk
+from gaitwright.record.recording import Recording, load
+from gaitwright.session import walk
 from gaitwright.signals import Mission
 from gaitwright.skills.chooser import fixed_skill
 

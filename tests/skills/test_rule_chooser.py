@@ -17,7 +17,7 @@ from gaitwright.knowledge.modifier import Lesson, learn
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.knowledge.trees import tree
 from gaitwright.signals import Scan
-from gaitwright.skills.chooser import PlainChooser
+from gaitwright.skills.chooser import DefaultChooser
 from gaitwright.skills.library import speed_scale
 from gaitwright.skills.rule_chooser import DOING, RuleChooser, carried_out
 from gaitwright.skills.situation import FOREST, situation
@@ -88,7 +88,7 @@ def test_where_no_rule_fires_the_plain_rules_do_and_that_is_said(place, yaw):
     here = sensed(place, yaw)
     call, plainly = (
         RuleChooser(DOG, Rulebook(FOREST)).choose(AHEAD, here),
-        PlainChooser(DOG).choose(AHEAD, here),
+        DefaultChooser(DOG).choose(AHEAD, here),
     )
     assert (call.skill, call.velocity, call.turn) == (plainly.skill, plainly.velocity, plainly.turn)
     assert call.because == f"no rule fires; plainly: {plainly.because}"

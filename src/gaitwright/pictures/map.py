@@ -46,7 +46,7 @@ def draw_map(ax: Axes, r: Recording, scene: Scene) -> None:
     ]
     if scene.boxes:
         handles.append(Patch(facecolor="#d9c9a8", edgecolor="#a8946c", label="low: stepped on"))
-    if scene.obstacles(r.robot, SEEN_STEP):
+    if scene.obstacles(SEEN_STEP * r.robot.height):
         handles.append(Patch(facecolor="#c9ced6", edgecolor=INK, hatch="////", label="high: walked around"))
     ax.legend(
         handles=handles, loc="upper left", ncols=len(handles), frameon=True, framealpha=0.92, edgecolor="none"
@@ -79,7 +79,7 @@ def draw_ground(ax: Axes, r: Recording, scene: Scene, bounds: tuple[float, float
         bar.ax.set_title("z [m]", fontsize=9, color=INK)
         bar.ax.tick_params(labelsize=9, colors=INK, length=2)
         bar.outline.set_visible(False)
-    obstacles = set(scene.obstacles(r.robot, SEEN_STEP))
+    obstacles = set(scene.obstacles(SEEN_STEP * r.robot.height))
     tallest = max((scene.top(box) for box in scene.boxes if box not in obstacles), default=1.0)
     for box in scene.boxes:
         if box in obstacles:

@@ -2,7 +2,6 @@
 
 import json
 import zipfile
-from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
@@ -13,12 +12,11 @@ from jaxtyping import Float
 from gaitwright.description.load import robot_of
 from gaitwright.errors import BadFile
 from gaitwright.files import whole
-from gaitwright.locomotion import Brain, Lap, Plant, trip
+from gaitwright.locomotion import Lap
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY
 from gaitwright.record import metrics as figures
 from gaitwright.record.metrics import Report
-from gaitwright.signals import Mission
 
 INTERRUPTED = "interrupted"
 """`stopped_because` of a trip that was cut off by the user."""
@@ -174,7 +172,7 @@ class Recorder:
         """Takes one lap."""
         if self.count == len(self.rows):
             self.rows = np.concatenate([self.rows, np.empty_like(self.rows)])
-        s, t, u = lap.sensed, lap.target, lap.torques
+        s, t, u = lap.sensed, lap.target, lap.command
         numbers = (
             self.skills.setdefault(lap.call.skill, len(self.skills)),
             self.drivers.setdefault(lap.call.driver, len(self.drivers)),
@@ -218,31 +216,6 @@ class Recorder:
             fell=last is not None and last.fell,
             stopped_because=(last.stopped_because if last else None) or INTERRUPTED,
         )
-
-
-def walk(  # noqa: PLR0913 - the door to everything; most calls name three of these
-    brain: Brain,
-    plant: Plant,
-    mission: Mission,
-    seconds: float = 60.0,
-    seed: int = 0,
-    vary: bool = True,
-    scene: str = "",
-    watch: Callable[[Lap], None] | None = None,
-) -> Recording:
-    """Takes a robot through a mission; an interrupt (Ctrl-C) keeps what was recorded.
-
-    `watch`, where given, is called with every lap.
-    """
-    recorder = Recorder(brain.robot, scene, seed, plant.dt)
-    try:
-        for lap in trip(brain, plant, mission, seconds, seed, vary):
-            recorder.add(lap)
-            if watch is not None:
-                watch(lap)
-    except KeyboardInterrupt:
-        pass
-    return recorder.finish()
 
 
 # --- files ------------------------------------------------------------------------------------------

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from gaitwright.model.robot import Robot
-from gaitwright.signals import Route, Sensed, SkillCall
+from gaitwright.signals import GroundMap, Route, Sensed, SkillCall
 from gaitwright.skills.following import braked, heading_error, turn_rate, wished_speed
 from gaitwright.skills.library import (
     Skill,
@@ -24,12 +24,18 @@ KEEP_TURNING = math.radians(15)
 
 
 @dataclass(frozen=True)
-class PlainChooser:
+class DefaultChooser:
     """Chooses among the skills of one robot by a few plain rules."""
 
     robot: Robot
 
-    def choose(self, route: Route, sensed: Sensed, now: SkillCall | None = None) -> SkillCall:
+    def choose(
+        self,
+        route: Route,
+        sensed: Sensed,
+        now: SkillCall | None = None,
+        ground: GroundMap | None = None,
+    ) -> SkillCall:
         """The skill for what lies ahead; `now` is the one in use."""
         if route.arrived or not route.path:
             return self.call("stand", route, because=route.no_way or "at the goal")
@@ -66,22 +72,28 @@ class PlainChooser:
         self, name: str, route: Route, forward: float = 0.0, turn: float = 0.0, because: str = ""
     ) -> SkillCall:
         gait = gait_of(find_skill(name, self.robot), self.robot)
-        return SkillCall(name, gait, (forward, 0.0), turn, route.driver, because)
+        return SkillCall(name, gait, (forward, 0.0), turn, because=because)
 
 
 @dataclass(frozen=True)
-class Fixed:
+class HeldSkill:
     """A chooser that holds one skill: what `gaitwright skill` runs."""
 
     skill_call: SkillCall
 
-    def choose(self, route: Route, sensed: Sensed, now: SkillCall | None = None) -> SkillCall:
+    def choose(
+        self,
+        route: Route,
+        sensed: Sensed,
+        now: SkillCall | None = None,
+        ground: GroundMap | None = None,
+    ) -> SkillCall:
         return self.skill_call
 
 
 def fixed_skill(
     robot: Robot, name: str, speed: float | None, lateral: float, turn: float | None, driver: str
-) -> Fixed:
+) -> HeldSkill:
     """One skill at one velocity [m/s, rad/s]; `None` takes what the skill is meant for.
 
     `speed` is along the skill's own way; `lateral`, to the left, comes on top.
@@ -93,4 +105,4 @@ def fixed_skill(
     velocity = (forward, left + lateral)
     check_speed(skill, robot, math.hypot(*velocity))
     turn = rate if turn is None else turn
-    return Fixed(SkillCall(skill.name, gait_of(skill, robot), velocity, turn, driver, "asked for"))
+    return HeldSkill(SkillCall(skill.name, gait_of(skill, robot), velocity, turn, driver, "asked for"))

@@ -11,8 +11,8 @@ from gaitwright.knowledge.forest import Forest, Situation
 from gaitwright.knowledge.memory import Action, Fact, applied, remembered
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.model.robot import Robot
-from gaitwright.signals import Route, Sensed, SkillCall
-from gaitwright.skills.chooser import PlainChooser
+from gaitwright.signals import GroundMap, Route, Sensed, SkillCall
+from gaitwright.skills.chooser import DefaultChooser
 from gaitwright.skills.following import braked, heading_error, turn_rate
 from gaitwright.skills.library import fastest, find_skill, gait_of, skill_names, speed_scale
 from gaitwright.skills.situation import FOREST, measured, named
@@ -46,7 +46,13 @@ class RuleChooser:
         for rule in self.book.rules:
             check_until(self.book.forest, rule.action)
 
-    def choose(self, route: Route, sensed: Sensed, now: SkillCall | None = None) -> SkillCall:
+    def choose(
+        self,
+        route: Route,
+        sensed: Sensed,
+        now: SkillCall | None = None,
+        ground: GroundMap | None = None,
+    ) -> SkillCall:
         """The skill for what lies ahead; `now` is the one in use."""
         raw = measured(self.robot, route, sensed, now)
         memory = remembered(now.memory if now is not None else {})
@@ -85,7 +91,7 @@ class RuleChooser:
 
     def fallen_back(self, route: Route, sensed: Sensed, now: SkillCall | None, ruling: Ruling) -> SkillCall:
         """What the plain rules say, and why they were asked."""
-        call = PlainChooser(self.robot).choose(route, sensed, now)
+        call = DefaultChooser(self.robot).choose(route, sensed, now)
         asked = (
             "no rule fires" if ruling.rule is None else f"rule {ruling.rule} wants a skill it does not have"
         )
@@ -113,7 +119,7 @@ def carried_out(robot: Robot, action: Action, route: Route, sensed: Sensed) -> S
     speed *= max(0.0, math.cos(error)) if skill.way == (1.0, 0.0) else 1.0
     turn = turn_rate(robot, error) if route.path and skill.duty < 1.0 else 0.0
     velocity = (speed * skill.way[0], speed * skill.way[1])
-    return SkillCall(skill.name, gait_of(skill, robot), velocity, turn, route.driver, "")
+    return SkillCall(skill.name, gait_of(skill, robot), velocity, turn)
 
 
 def room(robot: Robot, route: Route) -> float:

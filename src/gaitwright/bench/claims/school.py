@@ -10,7 +10,7 @@ from time import perf_counter
 
 import numpy as np
 
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.measurement import Figure, at_least, at_most
 from gaitwright.bench.peers.rules_client import RulesPeer
 from gaitwright.bench.trial import robot_named
@@ -39,19 +39,19 @@ NOTE = (
 )
 
 
-def measure(session: Session) -> Iterator[Figure]:
+def measure(context: Context) -> Iterator[Figure]:
     """The exam of whole schools, the same beside scikit-learn, and what one correction does."""
-    robot, teacher, seeds = robot_named("go2"), ScriptedTeacher(), session.seeds(SCHOOLS, quick=1)
+    robot, teacher, seeds = robot_named("go2"), ScriptedTeacher(), context.seeds(SCHOOLS, quick=1)
     whole: list[Schooled] = []
     right = []
     for seed in seeds:
-        session.voice.say(f"school {seed}")
-        whole.append(attend(robot, teacher, seed, PER_SKILL, 20 if session.quick else TRIPS))
+        context.voice.say(f"school {seed}")
+        whole.append(attend(robot, teacher, seed, PER_SKILL, 20 if context.quick else TRIPS))
         right.append(right_share(whole[-1].book, teacher, held_out(robot, teacher, seed, HELD_OUT)))
     yield share(f"go2's rules: right on {HELD_OUT} held-out situations", right, at_least(95.0))
     yield share("go2's rules: trees that are firm", [s.report.firm for s in whole], at_least(80.0))
-    yield from beside(session, seeds)
-    yield from corrections(session, seeds)
+    yield from beside(context, seeds)
+    yield from corrections(context, seeds)
 
 
 def share(what: str, each: Sequence[float], wanted=None, note: str = "") -> Figure:
@@ -61,7 +61,7 @@ def share(what: str, each: Sequence[float], wanted=None, note: str = "") -> Figu
 
 
 # --- beside other learners -------------------------------------------------------------------------
-def beside(session: Session, seeds: Sequence[int]) -> Iterator[Figure]:
+def beside(context: Context, seeds: Sequence[int]) -> Iterator[Figure]:
     """Demonstrations alone: our rules, CART and k-NN on the same moments."""
     robot, teacher, ours, problem = robot_named("go2"), ScriptedTeacher(), [], []
     for seed in seeds:
@@ -101,13 +101,13 @@ def row_of(moment: Moment) -> list[int]:
 
 
 # --- one correction --------------------------------------------------------------------------------
-def corrections(session: Session, seeds: Sequence[int]) -> Iterator[Figure]:
+def corrections(context: Context, seeds: Sequence[int]) -> Iterator[Figure]:
     """Faults of pupils that are still learning, each corrected once."""
     robot, teacher = robot_named("go2"), ScriptedTeacher()
     trials: list[Trial] = []
     took: list[float] = []
     for seed in seeds:
-        session.voice.say(f"corrections of pupil {seed}")
+        context.voice.say(f"corrections of pupil {seed}")
         book = attend(robot, teacher, seed, PER_SKILL, HALF).book
         pool = held_out(robot, teacher, seed + 5000, HELD_OUT)
         rng = np.random.default_rng([seed, 3])

@@ -7,9 +7,8 @@ from jaxtyping import Float
 
 from gaitwright.gait.climb.motion import SHIFT, Motion
 from gaitwright.gait.climb.plan import Ascent, order_of
-from gaitwright.gait.state import GaitMemory
 from gaitwright.numerics.geometry import between, rotation_vector
-from gaitwright.signals import Gait, MotionTarget, Sensed, SkillCall
+from gaitwright.signals import Gait, GroundMap, MotionTarget, Sensed, SkillCall
 
 UP = np.array([0.0, 0.0, 1.0])
 """Normal of every tread."""
@@ -25,13 +24,15 @@ class Climber:
     dt: float
     """Control period [s]."""
 
-    def begin(self, sensed: Sensed, phase: float = 0.0) -> GaitMemory:
+    def begin(self, sensed: Sensed, phase: float = 0.0) -> float:
         """The memory of a robot at the start of its climb: the time since then [s]."""
-        return np.zeros(1)
+        return 0.0
 
-    def move(self, memory: GaitMemory, call: SkillCall, sensed: Sensed) -> tuple[MotionTarget, GaitMemory]:
+    def move(
+        self, memory: float, call: SkillCall, sensed: Sensed, ground: GroundMap | None = None
+    ) -> tuple[MotionTarget, float]:
         """What body, feet and joints should do now, and the memory for the next tick."""
-        time = float(memory[0]) + self.dt
+        time = memory + self.dt
         made = self.ascent.at(np.maximum(time + TICK * np.array([-1.0, 0.0, 1.0]), 0.0))
         over = time >= len(self.ascent.steps) * self.ascent.seconds
         stance, (spin, spin_rate) = made.stance[1], spinning(made)
@@ -52,7 +53,7 @@ class Climber:
             q=made.q[1],
             command=np.array([0.0 if over else call.velocity[0], 0.0, 0.0]),
         )
-        return target, np.array([time])
+        return target, time
 
 
 def climb_call(ascent: Ascent, driver: str) -> SkillCall:
