@@ -11,7 +11,7 @@ from gaitwright.description.load import load_robot
 from gaitwright.ground.scene import load_scene
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, rotation
-from gaitwright.plant.mujoco.world import build_world
+from gaitwright.plant.mujoco.world import Placed, build_world
 from robots_by_hand import dog, insect
 
 BY_HAND = {"dog": dog, "insect": insect}
@@ -88,7 +88,7 @@ def any_inertia(rng: np.random.Generator, mass: float, size: float) -> np.ndarra
 # --- MuJoCo --------------------------------------------------------------------------------------
 def bare_world(robot: Robot) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """The robot alone: no contact, no joint limit, no friction."""
-    model = build_world(robot, load_scene("flat"))
+    model = build_world([Placed(robot)], load_scene("flat"))
     model.dof_damping[:] = 0.0
     model.dof_frictionloss[:] = 0.0
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
