@@ -17,6 +17,7 @@ from gaitwright.plant.mujoco.mjcf import child
 from gaitwright.plant.mujoco.simulation import MujocoWorld
 from gaitwright.plant.mujoco.world import Placed, build_world
 from gaitwright.signals import MotorCommand
+from oracles import robot_called
 from robots_by_hand import dog, insect
 
 ROBOTS = pytest.mark.parametrize("robot", [dog(), insect()], ids=["dog", "insect"])
