@@ -1,10 +1,11 @@
-# `make check` is every check there is, the same for people and machines.
+# `make check` is every check there is, the same for people and machines: what `.ci/run` runs, listed in `start.py`.
 BIN := .venv/bin
 INSTALL := $(BIN)/uv pip install --quiet --python $(BIN)/python -c constraints.txt -b constraints.txt
 
 .PHONY: check format lint types law test demo bench constraints clean
 
-check: lint types law test
+check:
+	python3 start.py check
 
 .venv/ready: pyproject.toml constraints.txt start.py
 	python3 start.py test --version
@@ -16,18 +17,14 @@ format: .venv/ready
 	$(BIN)/ruff check --fix
 	$(BIN)/ruff format
 
-lint: .venv/ready
-	$(BIN)/ruff format --check
-	$(BIN)/ruff check
+lint:
+	python3 start.py check format lint
 
-types: .venv/ready
-	$(BIN)/pyright
+types law:
+	python3 start.py check $@
 
-law: .venv/ready
-	$(BIN)/lint-imports
-
-test: .venv/ready
-	$(BIN)/pytest
+test:
+	python3 start.py test
 
 demo: .venv/ready
 	$(BIN)/gaitwright demo

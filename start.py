@@ -2,6 +2,8 @@
 
     python3 start.py demo     installs Gaitwright, then runs `gaitwright demo`
     python3 start.py test     installs what the tests need too, then runs `pytest`
+    python3 start.py check    installs what development needs too, then runs every check there is, tests last;
+                              `check lint types` runs some: format, lint, types, law
 
 Every other command of `gaitwright` works the same way; further arguments are passed on.
 """
@@ -19,6 +21,17 @@ BIN = VENV / ("Scripts" if os.name == "nt" else "bin")
 PYTHON = BIN / ("python.exe" if os.name == "nt" else "python")
 UNFINISHED = VENV / "unfinished"  # there while a step runs: found at the start, a run was cut off
 CHECK_AGE = "import sys; sys.exit(sys.version_info < (3, 11))"
+GROUPS = {
+    "test": ["--group", "test"],
+    "check": ["--group", "dev"],
+}  # what a command needs besides the package
+CHECKS = {
+    "format": ["ruff", "format", "--check"],
+    "lint": ["ruff", "check"],
+    "types": ["pyright"],
+    "law": ["lint-imports"],
+}
+TESTS = ["pytest", "-n", "auto", "--maxprocesses", "4"]  # one process for each core; `-n 0` for one in all
 PINNED = ["-c", "constraints.txt", "-b", "constraints.txt", "-e", ".[plot,record]"]
 
 
@@ -62,6 +75,27 @@ def install(*what):
         done.write_text(wanted, encoding="utf-8")
 
 
+def run(program, *arguments):
+    """Run a program of `.venv` under a line that names it; its exit code."""
+    print("==> " + " ".join([program, *arguments]), flush=True)
+    return subprocess.call([str(BIN / program), *arguments])
+
+
+def check(*names):
+    """Run the checks named, or all of them and then the tests, whatever fails; 0 where nothing does.
+
+    What failed is told before the tests, so that the last line is pytest's.
+    """
+    for name in names:
+        if name not in CHECKS:
+            sys.exit("start.py: no check '{}'; there is: {}".format(name, ", ".join(CHECKS)))
+    failed = [name for name in names or CHECKS if run(*CHECKS[name])]
+    if failed:
+        print("==> FAILED: " + ", ".join(failed), flush=True)
+    untested = 0 if names else run(*TESTS)
+    return 1 if failed else untested
+
+
 def main(command="", *arguments):
     if sys.version_info < (3, 11):
         sys.exit("start.py: Python 3.11 or later is needed, this is {}".format(sys.version.split()[0]))
@@ -69,10 +103,10 @@ def main(command="", *arguments):
         sys.exit(__doc__)
     os.chdir(str(Path(__file__).resolve().parent))
     make_environment()
-    install(*(["--group", "test"] if command == "test" else []))
-    run = ["pytest", *arguments] if command == "test" else ["gaitwright", command, *arguments]
-    print("==> " + " ".join(run), flush=True)
-    sys.exit(subprocess.call([str(BIN / run[0]), *run[1:]]))
+    install(*GROUPS.get(command, []))
+    if command == "check":
+        sys.exit(check(*arguments))
+    sys.exit(run(*TESTS, *arguments) if command == "test" else run("gaitwright", command, *arguments))
 
 
 if __name__ == "__main__":

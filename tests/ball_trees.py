@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from gaitwright.bench.evidence.oracles import ball_model
+from gaitwright.bench.evidence.oracles import ball_model, pinocchio
 from gaitwright.dynamics.tree import Tree, about_point, checked_tree
 from gaitwright.numerics.geometry import rotation
 from oracles import any_inertia
@@ -77,8 +77,7 @@ def absolute(tree: Tree, s: Motion, root, qdd) -> np.ndarray:
 # --- Pinocchio -----------------------------------------------------------------------------------
 def pinocchio_arguments(tree: Tree, s: Motion) -> tuple:
     """q, v, tau and external forces for `pin.aba`."""
-    import pinocchio as pin
-
+    pin = pinocchio()
     R, _, rates = relative(tree, s)
     turns = [Rotation.from_matrix(turn).as_quat() for turn in (s.R[0], *R)]
     outside = pin.StdVec_Force()
@@ -92,8 +91,7 @@ def pinocchio_arguments(tree: Tree, s: Motion) -> tuple:
 
 def pinocchio_accelerations(tree: Tree, s: Motion) -> np.ndarray:
     """By Featherstone's articulated bodies, which counts a free body's motion in its own axes."""
-    import pinocchio as pin
-
+    pin = pinocchio()
     model = ball_model(tree, s.gravity)
     qdd = pin.aba(model, model.createData(), *pinocchio_arguments(tree, s))
     a = s.R[0] @ (qdd[:3] + np.cross(s.w[0], s.R[0].T @ s.v))

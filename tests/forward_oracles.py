@@ -4,7 +4,7 @@ from dataclasses import fields, replace
 
 import numpy as np
 
-from gaitwright.bench.evidence.oracles import hinge_model
+from gaitwright.bench.evidence.oracles import hinge_model, pinocchio
 from gaitwright.dynamics.articulated import Accelerations
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import rotation
@@ -56,8 +56,7 @@ def by_mujoco(robot: Robot, s: Sensed, tau, arm_w, forces_w) -> Accelerations:
 
 def by_pinocchio(robot: Robot, s: Sensed, tau, arm_w, push_w, wrench_w) -> Accelerations:
     """Accelerations under torques, six-component wrenches on the feet and one on the base."""
-    import pinocchio as pin
-
+    pin = pinocchio()
     model = hinge_model(robot)
     data = model.createData()
     R, w = rotation(s.orientation_wb), s.angular_velocity_b

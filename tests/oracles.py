@@ -1,12 +1,14 @@
 """Other people's mechanics: our robots in MuJoCo and Pinocchio, and robots drawn at random."""
 
+import sys
 from dataclasses import dataclass, replace
 from functools import cache
 
 import mujoco
 import numpy as np
+import pytest
 
-from gaitwright.bench.evidence.oracles import hinge_model
+from gaitwright.bench.evidence.oracles import hinge_model, pinocchio
 from gaitwright.description.load import load_robot
 from gaitwright.ground.scene import load_scene
 from gaitwright.model.robot import Robot
@@ -14,6 +16,8 @@ from gaitwright.numerics.geometry import GRAVITY, rotation
 from gaitwright.plant.mujoco.world import Placed, build_world
 from robots_by_hand import dog, insect
 
+NEEDS_PINOCCHIO = pytest.mark.skipif(sys.platform == "win32", reason="Pinocchio has no wheels there")
+"""On tests that compare with it. Anywhere else it is one of the test dependencies: without it they fail."""
 BY_HAND = {"dog": dog, "insect": insect}
 
 
@@ -141,8 +145,7 @@ def mujoco_foot_accelerations(robot: Robot, model: mujoco.MjModel, data: mujoco.
 # --- Pinocchio -----------------------------------------------------------------------------------
 def pinocchio_inverse(robot: Robot, s: State) -> tuple[np.ndarray, np.ndarray]:
     """The same as `mujoco_inverse`, by Pinocchio, which counts a free body's motion in its own axes."""
-    import pinocchio as pin
-
+    pin = pinocchio()
     model = hinge_model(robot)
     R = rotation(s.orientation_wb)
     w = s.angular_velocity_b

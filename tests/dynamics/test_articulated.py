@@ -1,7 +1,6 @@
 """Direct dynamics of hinge legs: two foreign engines accelerate alike, and inverse dynamics undoes it."""
 
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -9,6 +8,7 @@ from forward_oracles import ALL, any_sensed, by_mujoco, by_pinocchio, robot_of, 
 from gaitwright.dynamics.articulated import accelerations, contact_arms, direct_dynamics
 from gaitwright.dynamics.newton_euler import inverse_dynamics
 from gaitwright.numerics.geometry import GRAVITY, rotation
+from oracles import NEEDS_PINOCCHIO
 
 SEEDS = st.integers(0, 2**32 - 1)
 UP = np.array([0.0, 0.0, 1.0])
@@ -22,10 +22,10 @@ def pushed(robot, rng):
     return torques, pushes, weight * rng.normal(size=6) * np.repeat([1.0, arm], 3)
 
 
+@NEEDS_PINOCCHIO
 @given(st.sampled_from(ALL), SEEDS)
 @settings(max_examples=200)
 def test_pinocchio_accelerates_alike(name: str, seed: int) -> None:
-    pytest.importorskip("pinocchio")
     rng = np.random.default_rng(seed)
     robot = robot_of(name, rng)
     s, _ = any_sensed(robot, rng)

@@ -24,7 +24,7 @@ from gaitwright.errors import WrongUse
 from gaitwright.model.kinematics import angles, feet
 from gaitwright.numerics.geometry import GRAVITY, rotation
 from gaitwright.signals import Sensed
-from oracles import robot_called
+from oracles import NEEDS_PINOCCHIO, robot_called
 
 SEEDS = st.integers(0, 2**32 - 1)
 UP = np.array([0.0, 0.0, 1.0])
@@ -72,10 +72,10 @@ def test_probing_agrees_where_nothing_is_subtracted(name: str, seed: int) -> Non
         np.testing.assert_allclose(mine, theirs, rtol=0, atol=1e-12 * np.abs(theirs).max())
 
 
+@NEEDS_PINOCCHIO
 @given(st.sampled_from(ALL), SEEDS, st.sampled_from(["jacobians", "probing"]))
 @settings(max_examples=60)
 def test_torques_from_the_maps_produce_the_motion(name: str, seed: int, method) -> None:
-    pytest.importorskip("pinocchio")
     robot, s, wanted, stance, normal = any_case(name, seed)
     chain = closed_chain(robot, s, wanted, stance, normal, method)
     w = least_wrenches(chain)

@@ -20,7 +20,7 @@ from gaitwright.dynamics.newton_euler import (
 from gaitwright.model.kinematics import angles, feet
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, rotation
-from oracles import State, any_state, mujoco_inverse, pinocchio_inverse, robot_called, unlike
+from oracles import NEEDS_PINOCCHIO, State, any_state, mujoco_inverse, pinocchio_inverse, robot_called, unlike
 
 NAMES = pytest.mark.parametrize("name", ["go2", "thesis", "hexapod", "insect"])
 
@@ -41,12 +41,10 @@ def assert_same(robot: Robot, s: State, oracle) -> None:
 
 
 @NAMES
-@pytest.mark.parametrize("oracle", ["mujoco", "pinocchio"])
+@pytest.mark.parametrize("oracle", ["mujoco", pytest.param("pinocchio", marks=NEEDS_PINOCCHIO)])
 def test_wrench_and_torques_are_those_of_another_engine(
     name: str, oracle: str, rng: np.random.Generator
 ) -> None:
-    if oracle == "pinocchio":
-        pytest.importorskip("pinocchio")
     other = mujoco_inverse if oracle == "mujoco" else pinocchio_inverse
     robot = robot_called(name)
     for _ in range(10):

@@ -126,7 +126,6 @@ def in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @pytest.mark.usefixtures("in_an_empty_folder")
 def test_the_command_draws_the_cycles_of_a_robot(capsys: pytest.CaptureFixture[str]) -> None:
-    pytest.importorskip("matplotlib")
     assert main(["skills", "--plot", "--robot", "hexapod", "--json", "-"]) == 0
     assert json.loads(capsys.readouterr().out)["picture"] == "runs/skills-hexapod.png"
     assert Path("runs/skills-hexapod.png").read_bytes().startswith(b"\x89PNG")
@@ -135,7 +134,6 @@ def test_the_command_draws_the_cycles_of_a_robot(capsys: pytest.CaptureFixture[s
 def test_the_command_checks_and_draws_a_file(
     in_an_empty_folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    pytest.importorskip("matplotlib")
     good = save_cycle(LegCycle("mine", load_cycle("trot").points, load_cycle("climb").points), "mine.json")
     assert main(["skills", "--cycle", str(good), "--out", "mine.png"]) == 0
     assert "fits" in capsys.readouterr().out

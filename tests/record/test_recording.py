@@ -5,6 +5,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.image import imread
+from mcap.reader import make_reader
+from mcap_ros2.decoder import DecoderFactory
 
 from gaitwright.description.load import load_robot
 from gaitwright.errors import BadFile
@@ -12,8 +15,10 @@ from gaitwright.ground.scene import load_scene
 from gaitwright.locomotion import Brain
 from gaitwright.model.kinematics import feet
 from gaitwright.numerics.geometry import rotation
+from gaitwright.pictures import trip_picture
 from gaitwright.plant.mujoco.simulation import MujocoPlant
 from gaitwright.record import metrics as figures
+from gaitwright.record.mcap_export import export_mcap
 from gaitwright.record.recording import Recording, load
 from gaitwright.session import walk
 from gaitwright.signals import Mission
@@ -65,12 +70,6 @@ def test_a_state_that_blew_up_leaves_finite_figures(recording: Recording):
 
 # --- MCAP ------------------------------------------------------------------------------------------
 def test_mcap_reads_back_as_ros_2_messages(recording: Recording, tmp_path: Path):
-    pytest.importorskip("mcap_ros2")
-    from mcap.reader import make_reader
-    from mcap_ros2.decoder import DecoderFactory
-
-    from gaitwright.record.mcap_export import export_mcap
-
     path = export_mcap(recording, tmp_path / "walk.mcap")
     with path.open("rb") as file:
         reader = make_reader(file, decoder_factories=[DecoderFactory()])
@@ -119,11 +118,6 @@ def expected_foot(recording: Recording, tick: int) -> np.ndarray:
 # --- picture ---------------------------------------------------------------------------------------
 @pytest.mark.parametrize("scene", ["blocks", "rough:0.05"])
 def test_a_picture_is_drawn_1600_pixels_wide(scene: str, recording: Recording, tmp_path: Path):
-    pytest.importorskip("matplotlib")
-    from matplotlib.image import imread
-
-    from gaitwright.pictures import trip_picture
-
     picture = imread(trip_picture(recording, load_scene(scene, 1), tmp_path / "trip.png"))
     assert picture.shape[1] == 1600
     assert picture[..., :3].std() > 0.05

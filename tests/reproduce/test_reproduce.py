@@ -262,7 +262,6 @@ def test_a_table_is_printed_and_left_as_a_page(tmp_path: Path, capsys):
 
 
 def test_figure_6_6_is_drawn_and_shows_what_can_be_shown(tmp_path: Path):
-    pytest.importorskip("matplotlib")
     assert reproduce.run(["figure-6.6"], str(tmp_path), str(tmp_path / "all.json")) == 0
     assert (tmp_path / "figure-6.6.png").read_bytes().startswith(b"\x89PNG")
     assert "![The twelve joint torques" in (tmp_path / "figure-6.6.md").read_text(encoding="utf-8")
