@@ -49,8 +49,9 @@ class Lazy:
         return self.take(slice(start, max(start, stop)))
 
 
-def parts(length: int, size: int = PART) -> Iterator[slice]:
-    """All ticks, some at a time."""
+def parts(length: int, size: int | None = None) -> Iterator[slice]:
+    """All ticks, `size` at a time (`PART`)."""
+    size = size or PART
     for start in range(0, length, size):
         yield slice(start, min(start + size, length))
 
