@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gaitwright.control.numerical import idle
-from gaitwright.errors import WrongUse
+from gaitwright.errors import NoRoom, WrongUse
 from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.locomotion import Brain, Lap, Mind, think
 from gaitwright.model.robot import Robot
@@ -230,13 +230,13 @@ def walk(  # noqa: PLR0913 - the door to everything; most calls name three of th
 def record(
     session: Session, seed: int = 0, scene: str = "", watch: Callable[[Lap], None] | None = None
 ) -> Recording:
-    """Steps a session to its end and keeps every lap; an interrupt (Ctrl-C) keeps what was recorded."""
+    """Steps a session to its end and keeps every lap; an interrupt or a full disk keeps what was recorded."""
     recorder = Recorder(session.brain.robot, scene, seed, session.plant.dt)
     try:
         for lap in session:
             recorder.add(lap)
             if watch is not None:
                 watch(lap)
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, NoRoom):
         pass
     return recorder.finish()

@@ -191,6 +191,10 @@ def test_several_robots_share_a_world_and_are_obstacles_to_each_other() -> None:
     heap.place(0, 0, False)
     heap.place(1, 0, False)
     heap.data.qpos[heap.addresses[0].qpos.start + 2] += 0.5
+    touching = set()
     for _ in range(500):
         heap.advance(idle, 1)
-    assert heap.sense(0, 0.002).position_w[2] > alone.sense(0, 0.002).position_w[2] + 0.02, "it lies on it"
+        bodies = heap.model.geom_bodyid[[pair for contact in heap.data.contact for pair in contact.geom]]
+        owners = ["ab"[body >= heap.addresses[1].base] if body else "" for body in bodies]
+        touching |= {owners[i] + owners[i + 1] for i in range(0, len(owners), 2)}
+    assert {"ab"} <= touching <= {"ab", "a", "b"}, "the one lies on the other, and neither touches itself"
