@@ -143,7 +143,9 @@ def test_a_situation_has_one_leaf_per_tree():
     assert situation["speed"] == "fast" and situation["terrain"] == "flat"
     assert forest.at(forest.leaf_places(situation)) == situation
     assert replace_value(forest, situation, "speed", 0.0)["speed"] == "slow"
-    assert forest.from_memory({"terrain": "stairs", "speed": 3.0, "weather": "fine"})["speed"] == "very fast"
+    facts = {"terrain": "stairs", "speed": 3.0, "weather": "fine"}
+    assert forest.read({}, facts).values == ("stairs", "very fast")
+    assert forest.read({"terrain": "flat"}, {"terrain": "stairs"}).values == ("flat", None)
 
 
 @pytest.mark.parametrize(

@@ -135,7 +135,7 @@ def test_a_feature_is_made_from_the_measurement_that_tells_right_from_wrong():
     assert rule.marks_in("friction") == Marks("friction", "≥ 0.5", "≥ 0.5")
     facts = {"road terrain": "flat", "speed": 2.5}
     for friction, fired in ((0.9, "run"), (0.2, None)):
-        situation = learned.book.forest.from_memory(facts | {"friction": friction})
+        situation = learned.book.forest.read({}, facts | {"friction": friction})
         assert consult(learned.book, situation).rule == fired
     assert loads(dumps(learned.book)) == learned.book
 

@@ -15,9 +15,8 @@ from gaitwright.knowledge.forest import Forest
 from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.modifier import Lesson, audit
 from gaitwright.knowledge.trees import tree
-from gaitwright.skillbook import Skillbook, export_text, import_text
+from gaitwright.skillbook import Skillbook, export_text, import_text, merge
 from gaitwright.skillbook.history import Step
-from gaitwright.skillbook.merging import merge
 from gaitwright.skillbook.merging.check import follows
 
 SEEDS = st.integers(0, 1 << 30)

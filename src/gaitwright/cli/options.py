@@ -355,6 +355,8 @@ def add_teach(parser: argparse.ArgumentParser) -> None:
     robot = "a name that `gaitwright robots` lists, or an MJCF or URDF file (go2)"
     parser.add_argument("--robot", default="go2", metavar="NAME|FILE", help=robot)
     parser.add_argument("--out", required=True, metavar="BOOK", help="a new skillbook, e.g. go2.skills")
+    start = "go on from this skillbook, also an older one; it stays as it is (begin with no rules)"
+    parser.add_argument("--from", dest="start", metavar="BOOK", help=start)
     trips = "trips that the rules make with the teacher watching (60)"
     parser.add_argument("--trips", type=count, default=60, metavar="N", help=trips)
     parser.add_argument("--seed", type=seed, default=0, metavar="N", help="draws the trips (0)")

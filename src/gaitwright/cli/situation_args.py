@@ -9,7 +9,7 @@ from gaitwright.errors import WrongUse, unknown
 from gaitwright.knowledge.compiled import compile_book
 from gaitwright.knowledge.consult import consult
 from gaitwright.knowledge.counterfactual import counterfactual
-from gaitwright.knowledge.forest import Forest, Situation, replace_value
+from gaitwright.knowledge.forest import Forest, Situation, leaf_in, replace_value
 from gaitwright.knowledge.memory import Fact
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.knowledge.trees import Tree
@@ -125,11 +125,9 @@ def _leaf(
             tree.leaves_below(value)[0],
             "as the first",
         )
-    fact = facts.get(tree.source or tree.name)
-    if fact is not None and tree.bounds and not isinstance(fact, str):
-        return tree.leaf_of(fact), RECORDED
-    if isinstance(fact, str) and tree.is_leaf(fact):
-        return fact, RECORDED
+    recorded = leaf_in(tree, facts)
+    if recorded is not None:
+        return recorded, RECORDED
     return _taught(tree, tree.leaves, lessons)
 
 

@@ -2,7 +2,7 @@
 
 import json
 from argparse import Namespace
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from time import perf_counter
 
@@ -11,15 +11,16 @@ from gaitwright.cli.output import check_json, write_json
 from gaitwright.cli.trips import find_robot
 from gaitwright.errors import WrongUse
 from gaitwright.knowledge.modifier import Learned
-from gaitwright.knowledge.rules import Rulebook, status
+from gaitwright.knowledge.rules import status
 from gaitwright.learning.analogies import proposals
 from gaitwright.learning.exam import held_out, right_share
 from gaitwright.learning.keeping import keep
-from gaitwright.learning.school import Schooled, attend
+from gaitwright.learning.school import Schooled, attend, catch_up
 from gaitwright.learning.teacher import ScriptedTeacher
 from gaitwright.model.robot import Robot
 from gaitwright.skillbook.book import Skillbook
 from gaitwright.skillbook.writer import Ledger, open_for_learning
+from gaitwright.skills.book_trees import up_to_date
 from gaitwright.skills.situation import FOREST
 
 EXAM = 200
@@ -35,7 +36,7 @@ def run(args: Namespace) -> int:
         raise WrongUse(f"{path} exists: name a new skillbook, or remove that one")
     if not path.parent.is_dir():
         raise WrongUse(f"there is no folder {path.parent} for {path.name}")
-    Skillbook.new(Rulebook(FOREST), robot=robot.name, name=path.stem, seed=args.seed).save(path)
+    begun(robot, path.stem, args).save(path)
     began = perf_counter()
     try:
         with open_for_learning(path) as ledger:
@@ -50,6 +51,15 @@ def run(args: Namespace) -> int:
         )
     tell(schooled, offered, right, perf_counter() - began, args)
     return 0
+
+
+def begun(robot: Robot, name: str, args: Namespace) -> Skillbook:
+    """The book that the school begins with: an empty one, or what an earlier school left."""
+    if args.start is None:
+        return Skillbook.new(FOREST, robot.name, name, args.seed)
+    old = Skillbook.load(args.start)
+    up_to_date(old.rulebook)  # refuses a book that is about something else before there is a new one
+    return replace(old.forked(name), robot=robot.name, seed=args.seed)
 
 
 def taught(robot: Robot, ledger: Ledger, args: Namespace) -> Schooled:
@@ -70,6 +80,7 @@ def taught(robot: Robot, ledger: Ledger, args: Namespace) -> Schooled:
         trips_watched=args.trips,
         progress=progress,
         keep=lambda studied: keep(ledger, studied),
+        start=catch_up(ledger),
     )
 
 

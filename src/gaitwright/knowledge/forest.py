@@ -1,12 +1,16 @@
 """The situation space: an ordered forest of feature trees, and situations as one leaf per tree (§5.4.2.1)."""
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from gaitwright.errors import WrongUse, unknown
+from gaitwright.knowledge.memory import Fact
 from gaitwright.knowledge.trees import Tree
 
 MAX_TREES = 64
+OTHER = "other"
+"""The leaf, in a tree made of names met so far, for those that nobody has met yet."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,11 +65,11 @@ class Forest:
             raise WrongUse(f"a situation has a value in every tree; missing: {', '.join(missing)}")
         return Situation(self.names, tuple(_leaf(tree, values[tree.name]) for tree in self.trees))
 
-    def from_memory(self, memory: Mapping[str, str | float]) -> Situation:
-        """The situation that working memory describes: data that no tree asks for are left aside (C, step
-        b)."""
-        facts = {tree.name: tree.source or tree.name for tree in self.trees}
-        return self.situation({name: memory[fact] for name, fact in facts.items() if fact in memory})
+    def read(self, known: Mapping[str, str | None], facts: Mapping[str, Fact]) -> Situation:
+        """The situation of known leaves; trees that these leave out are read from facts, and are open where
+        no fact tells. What no tree asks for is left aside (C, step b)."""
+        values = (known[tree.name] if tree.name in known else leaf_in(tree, facts) for tree in self.trees)
+        return Situation(self.names, tuple(values))
 
     def leaf_places(self, situation: Situation) -> tuple[int, ...]:
         """The place of each leaf among its tree's leaves, as compiled decisions take it.
@@ -97,6 +101,17 @@ def replace_value(forest: Forest, situation: Situation, tree: str, value: str | 
     values = list(situation.values)
     values[place] = _leaf(forest.trees[place], value)
     return Situation(situation.trees, tuple(values))
+
+
+def leaf_in(tree: Tree, facts: Mapping[str, Fact]) -> str | None:
+    """The leaf that the fact which a tree is read from falls into; `None` where it was not measured, or is
+    none that the tree could place."""
+    fact = facts.get(tree.source or tree.name)
+    if tree.bounds:
+        return None if fact is None or isinstance(fact, str) or math.isnan(fact) else tree.leaf_of(fact)
+    if fact is None or (isinstance(fact, str) and tree.is_leaf(fact)):
+        return fact
+    return OTHER if OTHER in tree.leaf_place else None
 
 
 def _leaf(tree: Tree, value: str | float) -> str:

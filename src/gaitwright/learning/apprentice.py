@@ -13,6 +13,7 @@ from gaitwright.knowledge.restructure import Mended
 from gaitwright.knowledge.rules import Event, Rulebook
 from gaitwright.learning.critic import Moment, Step, criticise
 from gaitwright.learning.teacher import Correction, Teacher
+from gaitwright.skills.book_trees import in_trees_of
 from gaitwright.skills.rule_chooser import DOING, holds
 from gaitwright.skills.situation import READ_FROM
 
@@ -217,11 +218,4 @@ def with_feature(book: Rulebook, trouble: Inconsistency, about: str) -> Learned 
 
 def placed(book: Rulebook, moment: Moment) -> Moment:
     """The moment in the rulebook's own trees: those it grew since are read from the numbers."""
-    if moment.situation.trees == book.forest.names:
-        return moment
-    known = dict(moment.situation.items())
-    values: dict[str, str | float] = {}
-    for tree in book.forest.trees:
-        leaf = known.get(tree.name)
-        values[tree.name] = leaf if leaf is not None else moment.raw[tree.source or tree.name]
-    return replace(moment, situation=book.forest.situation(values))
+    return replace(moment, situation=in_trees_of(book, moment.situation, moment.raw))

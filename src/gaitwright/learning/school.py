@@ -20,6 +20,8 @@ from gaitwright.learning.kinematic import moments_of
 from gaitwright.learning.teacher import ScriptedTeacher, Teacher
 from gaitwright.learning.trips import SCHOOL, teacher_drives, trips
 from gaitwright.model.robot import Robot
+from gaitwright.skillbook.writer import Ledger
+from gaitwright.skills.book_trees import up_to_date
 from gaitwright.skills.situation import FOREST
 
 KINDS_OF_RULES = 13
@@ -123,18 +125,20 @@ def attend(  # noqa: PLR0913 - a whole school; every setting has its default
     trips_watched: int = 40,
     progress: Callable[[str, int, int], None] | None = None,
     keep: Callable[[Studied], None] | None = None,
+    start: Rulebook | None = None,
 ) -> Schooled:
     """The whole school: demonstrations first, then trips that the rules decide and the teacher watches.
 
     She shows each skill at most `per_skill` times: some of these at first, the others where the rules go
     wrong. `progress` is told what is going on, how much of it is done, and how much there is; `keep` gets
-    what was learned since it was last called, to put it away before anything else is learned.
+    what was learned since it was last called, to put it away before anything else is learned; `start` has
+    rules that are known already (none).
     """
     teacher = teacher or ScriptedTeacher()
     tell = progress or (lambda what, done, of: None)
     shown = demonstrations(robot, teacher, seed, min(AT_FIRST, per_skill))
     tell("demonstrations", 0, len(shown))
-    studied = demonstrate(Rulebook(FOREST), teacher, shown)
+    studied = demonstrate(up_to_date(start or Rulebook(FOREST)), teacher, shown)
     tell("demonstrations", len(shown), len(shown))
     keep = keep or (lambda _: None)
     keep(studied)
@@ -157,6 +161,17 @@ def attend(  # noqa: PLR0913 - a whole school; every setting has its default
         firm_share(studied.book),
     )
     return Schooled(studied.book, report)
+
+
+def catch_up(ledger: Ledger) -> Rulebook:
+    """The rulebook of a ledger, over today's trees: those that came after it was begun are put away first.
+    Raises `WrongUse` for a book that is about something else."""
+    old = ledger.book.rulebook
+    new = up_to_date(old)
+    if new is not old:
+        later = ", ".join(new.forest.names[len(old.forest.names) :])
+        ledger.edit(new, f"{later}: known since this book was made")
+    return new
 
 
 def watch(

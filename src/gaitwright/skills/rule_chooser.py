@@ -12,10 +12,11 @@ from gaitwright.knowledge.memory import Action, Fact, applied, remembered
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.model.robot import Robot
 from gaitwright.signals import Route, Sensed, SkillCall
+from gaitwright.skills.book_trees import in_trees_of, up_to_date
 from gaitwright.skills.chooser import PlainChooser
 from gaitwright.skills.following import braked, heading_error, turn_rate
 from gaitwright.skills.library import fastest, find_skill, gait_of, skill_names, speed_scale
-from gaitwright.skills.situation import FOREST, measured, named
+from gaitwright.skills.situation import measured, named
 
 DOING = "rule in use"
 """The fact of working memory that names the rule that fired last."""
@@ -39,10 +40,9 @@ class RuleChooser:
     book: Rulebook
 
     def __post_init__(self) -> None:
-        """Raises `WrongUse` for a rulebook over other trees, or an until-condition that asks for none."""
-        missing = [name for name in FOREST.names if name not in self.book.forest.names]
-        if missing:
-            raise WrongUse(f"this rulebook knows nothing of {', '.join(missing)}: it is not about skills")
+        """Brings an older rulebook up to date. Raises `WrongUse` for one over other trees, or an
+        until-condition that asks for none."""
+        object.__setattr__(self, "book", up_to_date(self.book))
         for rule in self.book.rules:
             check_until(self.book.forest, rule.action)
 
@@ -70,11 +70,7 @@ class RuleChooser:
 
     def situation(self, raw: Mapping[str, float], now: SkillCall | None) -> Situation:
         """The situation in the rulebook's own trees: those of today and those it grew since."""
-        values: dict[str, str | float] = {name: value for name, value in named(raw, now).items() if value}
-        for tree in self.book.forest.trees:
-            if tree.name not in values:
-                values[tree.name] = raw[tree.source or tree.name]
-        return self.book.forest.situation(values)
+        return in_trees_of(self.book, named(raw, now), raw)
 
     def because(self, ruling: Ruling) -> str:
         """Why, as a sentence: the rule and how sure it is."""

@@ -9,9 +9,10 @@ from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.modifier import Inconsistency, Lesson, learn, values_text
 from gaitwright.knowledge.repair import mend
 from gaitwright.knowledge.rules import Event, Rulebook
+from gaitwright.knowledge.widen import widened
 from gaitwright.skillbook.book import Skillbook
 from gaitwright.skillbook.history import How, Step
-from gaitwright.skillbook.merging.translate import differing, joined, lesson_over, widened
+from gaitwright.skillbook.merging.translate import differing, lesson_over
 
 TRIES = 10
 """So often a lesson is mended and taught again before it counts as a contradiction."""
@@ -56,10 +57,10 @@ class Joining:
                 f"{self.their_name}: ours stays, and what theirs knows by other values is reported"
             )
             self.report(Conflict("", (tree,), (), (), sentence))
-        forest = joined(self.rulebook.forest, self.theirs.rulebook.forest)
-        if forest != self.rulebook.forest:
-            new = ", ".join(forest.names[len(self.rulebook.forest.names) :])
-            self.edit(widened(self.rulebook, forest), f"{new}: known in {self.their_name}")
+        wider = widened(self.rulebook, self.theirs.rulebook.forest.trees)
+        if wider is not self.rulebook:
+            new = ", ".join(wider.forest.names[len(self.rulebook.forest.names) :])
+            self.edit(wider, f"{new}: known in {self.their_name}")
         actions = {rule.name: rule.action for rule in self.rulebook.rules}
         for rule in self.theirs.rulebook.rules:
             if actions.get(rule.name, rule.action) != rule.action:
