@@ -2,14 +2,13 @@
 
 import json
 import re
-import textwrap
 from argparse import Namespace
 from dataclasses import asdict
 from importlib import import_module
 from pathlib import Path
 
-from gaitwright.cli.books import rulebook_of
-from gaitwright.cli.console import console, remark, show_pairs, show_table, working
+from gaitwright.cli.book_files import rulebook_of
+from gaitwright.cli.console import console, remark, show_pairs, show_prose, show_table, working
 from gaitwright.cli.explain_text import (
     because,
     changes,
@@ -33,8 +32,6 @@ from gaitwright.knowledge.rules import Rulebook, status
 
 RULES = ("", "rule", "status", "right", "wrong", "it …")
 MARKS = ("tree", "here", "▲ upper mark", "moved there by", "▼ lower mark", "moved there by")
-WIDE = 100
-"""Letters of a line of prose."""
 
 
 def run(args: Namespace) -> int:
@@ -70,19 +67,12 @@ def run(args: Namespace) -> int:
     return 0
 
 
-def prose(text: str, indent: str = "") -> None:
-    """A paragraph on the standard output."""
-    screen = console()
-    lines = textwrap.wrap(text, min(WIDE, screen.width), initial_indent=indent, subsequent_indent=2 * indent)
-    screen.print("\n".join(lines), markup=False)
-
-
 # --- what the book knows ---------------------------------------------------------------------------
 def tell_book(book: Rulebook, path: str, aside: bool) -> None:
     """All rules in their order."""
     if aside:
         return
-    prose(opening(book, Path(path).name))
+    show_prose(opening(book, Path(path).name))
     rows = [
         (str(k), rule.name, status(rule), str(len(rule.positives)), str(len(rule.negatives)),
          sentence_of(book, rule))
@@ -97,8 +87,10 @@ def tell_rule(book: Rulebook, name: str, aside: bool) -> None:
     if aside:
         return
     rule = book[name]
-    prose(f"{title(rule)}: {sentence_of(book, rule)}.")
-    prose("▲ outside this value it may not fire; ▼ below this value it was seen right. + yes, ? grey, − no.")
+    show_prose(f"{title(rule)}: {sentence_of(book, rule)}.")
+    show_prose(
+        "▲ outside this value it may not fire; ▼ below this value it was seen right. + yes, ? grey, − no."
+    )
     console().print(f"\n{forest_text(book, name)}", markup=False)
 
 
@@ -107,9 +99,9 @@ def tell_history(book: Rulebook, name: str, figures: dict, aside: bool) -> None:
     events = figures["history"] = told_history(book, name)
     if aside:
         return
-    prose(f"{title(book[name])}:")
+    show_prose(f"{title(book[name])}:")
     for event in events:
-        prose(f"{event}.", "  ")
+        show_prose(f"{event}.", "  ")
 
 
 # --- what it decides -------------------------------------------------------------------------------
@@ -150,7 +142,7 @@ def tell_decision(
     if aside:
         return
     tell_situation(at)
-    prose(f"{verdict(decision)} {left_open}")
+    show_prose(f"{verdict(decision)} {left_open}")
     section("why", [figures["because"]])
     section("why not another", [sentence for _, sentence in against])
     section(
@@ -189,7 +181,7 @@ def section(head: str, sentences: list[str]) -> None:
     if sentences:
         console().print(f"\n{head}", style="bold", markup=False)
         for sentence in sentences:
-            prose(sentence, "  ")
+            show_prose(sentence, "  ")
 
 
 # --- the picture -----------------------------------------------------------------------------------

@@ -10,7 +10,9 @@ import re
 from typing import NamedTuple, NoReturn
 
 from gaitwright.cli.arg_types import (
+    BOOK_TASKS,
     DRIVERS,
+    book_task,
     count,
     distribution,
     driver,
@@ -113,6 +115,19 @@ COMMANDS = {
             "gaitwright explain garden.json",
             "gaitwright explain garden.json --situation ground=gravel speed=0.8 --not trot",
             "gaitwright explain garden.json --rule trot --plot     # its trees as a picture",
+        ),
+    ),
+    "books": Command(
+        "skillbooks: two joined to one; one as text, and back",
+        "merge: teaches OURS what THEIRS was taught since they went apart, into a new book; what the two "
+        "teach differently is told in a sentence each, and there ours stays. export: a skillbook as text, "
+        "one thing a line, the same text for the same book, for reading, diff and version control. import: "
+        "a skillbook from such a text, or one that begins with a rulebook as JSON. No file is ever written "
+        "over.",
+        (
+            "gaitwright books merge mine.skills yours.skills --out both.skills",
+            "gaitwright books export mine.skills --out mine.txt     # without --out: to the standard output",
+            "gaitwright books import mine.txt --out again.skills",
         ),
     ),
     "bench": Command(
@@ -377,6 +392,15 @@ def add_explain(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", metavar="FILE", help="where to draw (runs/explain-BOOK.png)")
 
 
+def add_books(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("task", type=book_task, metavar="TASK", help=listed(BOOK_TASKS))
+    parser.add_argument("files", nargs="+", metavar="FILE", help="the books, or the text to import")
+    out = "the new book, or where the text goes (export: the standard output)"
+    parser.add_argument("--out", metavar="FILE|-", help=out)
+    base = "merge: the book that both come from (found without being named, checked where it is)"
+    parser.add_argument("--base", metavar="BOOK", help=base)
+
+
 def add_bench(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("names", nargs="*", metavar="NAME", help="what to measure (everything)")
     parser.add_argument("--quick", action="store_true", help="fewer repetitions: a look, not a result")
@@ -401,6 +425,7 @@ ADD = {
     "skills": add_skills,
     "teach": add_teach,
     "explain": add_explain,
+    "books": add_books,
     "bench": add_bench,
     "reproduce": add_reproduce,
     "doctor": add_nothing,

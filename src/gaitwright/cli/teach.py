@@ -3,13 +3,12 @@
 import json
 from argparse import Namespace
 from dataclasses import asdict, replace
-from pathlib import Path
 from time import perf_counter
 
+from gaitwright.cli.book_files import new_file, skillbook_of
 from gaitwright.cli.console import remark, show_pairs, working
 from gaitwright.cli.output import check_json, write_json
 from gaitwright.cli.trips import find_robot
-from gaitwright.errors import WrongUse
 from gaitwright.knowledge.modifier import Learned
 from gaitwright.knowledge.rules import status
 from gaitwright.learning.analogies import proposals
@@ -31,11 +30,7 @@ EVERY = 10.0
 
 def run(args: Namespace) -> int:
     check_json(args.json)
-    robot, path = find_robot(args.robot), Path(args.out)
-    if path.exists():
-        raise WrongUse(f"{path} exists: name a new skillbook, or remove that one")
-    if not path.parent.is_dir():
-        raise WrongUse(f"there is no folder {path.parent} for {path.name}")
+    robot, path = find_robot(args.robot), new_file(args.out, "skillbook")
     begun(robot, path.stem, args).save(path)
     began = perf_counter()
     try:
@@ -57,7 +52,7 @@ def begun(robot: Robot, name: str, args: Namespace) -> Skillbook:
     """The book that the school begins with: an empty one, or what an earlier school left."""
     if args.start is None:
         return Skillbook.new(FOREST, robot.name, name, args.seed)
-    old = Skillbook.load(args.start)
+    old = skillbook_of(args.start)
     up_to_date(old.rulebook)  # refuses a book that is about something else before there is a new one
     return replace(old.forked(name), robot=robot.name, seed=args.seed)
 
