@@ -81,6 +81,14 @@ def test_a_book_goes_to_text_and_back(capsys):
     assert (report["hash"], report["name"]) == (content_hash(book), book.name)
 
 
+def test_a_text_changed_by_hand_is_taken_with_a_word(books, capsys):
+    text = export_text(books[0])
+    for name, told in (("a", "make these rules"), ("quiet", "make other rules")):
+        Path("c.txt").write_text(text if name == "a" else text.replace('"quiet":0', '"quiet":3', 1))
+        assert main(["books", "import", "c.txt", "--out", f"{name}-again.skills"]) == 0
+        assert told in capsys.readouterr().out
+
+
 def test_rules_as_json_become_a_book_that_can_be_merged(books):
     Path("garden.json").write_bytes(dumps(books[1].rulebook))
     assert main(["books", "import", "garden.json", "--out", "garden.skills"]) == 0

@@ -25,6 +25,16 @@ def _random_shape(rng: np.random.Generator, row: list[str]) -> list:
     return [part[0] if len(part) == 1 else {"+".join(part): _random_shape(rng, part)} for part in parts]
 
 
+def parent(tree: Tree, value: str) -> str | None:
+    """The value it hangs below; `None` for the root."""
+    return (None, *tree.path(value))[-2]
+
+
+def children(tree: Tree, value: str) -> tuple[str, ...]:
+    """The values directly below one."""
+    return tuple(below for below in tree.values if parent(tree, below) == value)
+
+
 def random_forest(rng: np.random.Generator, trees: int, most: int = 6) -> Forest:
     return Forest(tuple(random_tree(rng, "abcdefghijklmnop"[k], most) for k in range(trees)))
 

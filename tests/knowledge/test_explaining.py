@@ -12,7 +12,7 @@ from gaitwright.knowledge.analogy import confirm, mirrored
 from gaitwright.knowledge.consult import consult
 from gaitwright.knowledge.correction import teach
 from gaitwright.knowledge.counterfactual import counterfactual
-from gaitwright.knowledge.explain import forest_text, history, rule_line, why, why_not
+from gaitwright.knowledge.explain import forest_text, history, why, why_not
 from gaitwright.knowledge.forest import Forest
 from gaitwright.knowledge.json_form import dumps, loads
 from gaitwright.knowledge.memory import Action
@@ -84,7 +84,6 @@ def test_history_tells_status_and_every_move(book):
     assert head == "run is a rule shell: 1 right and 2 wrong situations, 0 lessons since a mark moved"
     assert moves[0].startswith("lap 1: run is new")
     assert moves[-1] == "lap 3: the upper mark in speed went from any to fast: run was wrong at speed slow"
-    assert rule_line(book["run"]) == "IF ground = firm & speed = fast THEN run [shell]"
 
 
 def test_the_trees_show_their_marks(book):

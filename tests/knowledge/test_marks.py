@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from random_books import is_below, random_book, random_forest, random_situation
+from random_books import is_below, parent, random_book, random_forest, random_situation
 
 from gaitwright.errors import WrongUse
 from gaitwright.knowledge.discriminate import discriminate, grey_trees
@@ -73,7 +73,7 @@ def test_discriminating_never_widens_and_moves_one_mark_just_enough(seed):
     for old, new in moved:
         assert new.lower == old.lower
         assert is_below(grown, new.upper, old.upper) and is_below(grown, new.lower, new.upper)
-        assert is_below(grown, value, grown.parent(new.upper))  # one step higher would let it in
+        assert is_below(grown, value, parent(grown, new.upper))  # one step higher would let it in
 
 
 def test_the_first_instance_puts_lower_marks_on_leaves_and_leaves_upper_marks_at_the_roots():

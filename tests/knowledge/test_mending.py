@@ -1,6 +1,7 @@
 """Contradictions: a tree regrouped as in figure 5.6, a rule split, a feature added; never a silent loss."""
 
 import pytest
+from random_books import children
 
 from gaitwright.knowledge.consult import consult
 from gaitwright.knowledge.features import accept, propose_features, round_between
@@ -44,8 +45,8 @@ def test_the_thesis_gallop_ends_in_figure_5_6(order):
     mended = mend(book, trouble)
     reshaped = mended.book.forest["road terrain"]
     assert mended.how == "regrouped"
-    assert reshaped.children("any") == ("flat", "uphill or downhill")
-    assert reshaped.children("uphill or downhill") == ("uphill", "downhill")
+    assert children(reshaped, "any") == ("flat", "uphill or downhill")
+    assert children(reshaped, "uphill or downhill") == ("uphill", "downhill")
     assert mended.book["gallop"].marks[0] == Marks("road terrain", "uphill or downhill", "uphill or downhill")
     assert "road terrain now has the value 'uphill or downhill'" in mended.sentence
     assert mended.book.events[-1].instance == trouble.instance.id

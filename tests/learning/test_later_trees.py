@@ -19,8 +19,7 @@ from gaitwright.knowledge.trees import interval_tree, tree
 from gaitwright.knowledge.widen import widened
 from gaitwright.learning.apprentice import corrected, step_of, study
 from gaitwright.learning.critic import Moment
-from gaitwright.learning.keeping import keep
-from gaitwright.learning.school import catch_up
+from gaitwright.learning.school import catch_up, keep
 from gaitwright.skillbook import Skillbook, open_for_learning
 from gaitwright.skills import book_trees, situation
 from gaitwright.skills.rule_chooser import RuleChooser

@@ -8,10 +8,11 @@ from gaitwright.knowledge.consult import consult
 from gaitwright.knowledge.correction import teach
 from gaitwright.knowledge.forest import Forest
 from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.modifier import Lesson
+from gaitwright.knowledge.modifier import Learned, Lesson
 from gaitwright.knowledge.repair import mend
+from gaitwright.knowledge.restructure import Mended
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.skillbook import Skillbook
+from gaitwright.skillbook import Ledger, Skillbook
 from gaitwright.skillbook.history import Step, settled
 from knowledge.random_books import random_book, random_forest, random_situation
 
@@ -48,6 +49,20 @@ def corrected(book: Skillbook, lesson: Lesson) -> Skillbook:
         if mended.how == "none":
             break
     return book
+
+
+def teach_in(ledger: Ledger, lesson: Lesson) -> Learned:
+    """A lesson taught and recorded."""
+    learned = teach(ledger.book.rulebook, lesson)
+    ledger.record(lesson, learned)
+    return learned
+
+
+def mend_in(ledger: Ledger, lesson: Lesson, learned: Learned) -> Mended:
+    """The contradiction that a lesson just recorded ended in, mended and recorded."""
+    mended = mend(ledger.book.rulebook, learned.trouble, lesson.blame)
+    ledger.record(lesson, mended, "mended")
+    return mended
 
 
 def stepped(book: Skillbook, step: Step, rulebook: Rulebook) -> Skillbook:

@@ -9,7 +9,7 @@ from contextlib import closing
 from pathlib import Path
 
 import pytest
-from schooling import random_lesson
+from schooling import random_lesson, teach_in
 
 from gaitwright.errors import BadFile
 from gaitwright.knowledge import json_form
@@ -60,7 +60,7 @@ def test_a_newer_version_reads_and_teaches_older_books(first, rng, monkeypatch):
         assert Skillbook.load(first) == book and first.read_bytes() == before
         with open_for_learning(first) as ledger:
             assert ledger.book == book
-            ledger.teach(random_lesson(rng, book.rulebook.forest))
+            teach_in(ledger, random_lesson(rng, book.rulebook.forest))
             taught = ledger.book
         with closing(sqlite3.connect(first)) as db:
             assert db.execute("SELECT count(*) FROM profiles").fetchone() == (0,)

@@ -20,13 +20,17 @@ from gaitwright.signals import Scan
 from gaitwright.skills.chooser import PlainChooser
 from gaitwright.skills.library import speed_scale
 from gaitwright.skills.rule_chooser import DOING, RuleChooser, carried_out
-from gaitwright.skills.situation import FOREST, situation
+from gaitwright.skills.situation import FOREST, measured, named
 from oracles import robot_called
 
 AHEAD = route((5.0, 0.0), speed=0.4 * speed_scale(DOG))
 STAIRS = replace(AHEAD, ahead=Scan(slope=0.3, step_up=0.3 * DOG.height))
 SIDEWAYS = route((0.0, 5.0))
 TURN = Action("turn-in-place", until="turn is straight on", adds=(("turns", 1.0),))
+
+
+def situation(robot, way, here):
+    return named(measured(robot, way, here))
 
 
 def taught(*lessons: tuple[Action, object]) -> Rulebook:

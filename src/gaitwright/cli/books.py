@@ -18,6 +18,11 @@ from gaitwright.skillbook.merging.merge import Merged, merge
 FILES = {"merge": ("OURS", "THEIRS"), "export": ("BOOK",), "import": ("TEXT",)}
 """The files that each task is given."""
 
+REPLAYED = {
+    True: "its lessons, taken again, make these rules",
+    False: "its lessons, taken again, make other rules: the text was changed, or another version taught it",
+}
+
 
 def run(args: Namespace) -> int:
     check_json(args.json)
@@ -128,6 +133,8 @@ def import_book(args: Namespace) -> None:
             book = import_text(content.decode(), source)
         except UnicodeDecodeError as error:
             raise BadFile(f"{source} is no text: {error.reason} at byte {error.start}") from None
+    with working("taking its lessons again", worth_a_line=False):
+        same = book.replayed() == book.rulebook
     book.save(out)
     write_json(args.json, json.dumps(facts_of(book, args.out), indent=2, ensure_ascii=False))
     rules = book.rulebook
@@ -135,6 +142,7 @@ def import_book(args: Namespace) -> None:
         ("name", book.name),
         ("rules", ", ".join(rule.name for rule in rules.rules) or "none"),
         ("lessons", str(rules.lessons)),
+        ("history", REPLAYED[same]),
         ("next", f"gaitwright explain {args.out}"),
     ]
     show_pairs(f"{args.out} holds what {source} says", rows, to_stderr=args.json == "-")

@@ -8,9 +8,9 @@ from itertools import groupby
 from gaitwright.knowledge.compiled import compile_book
 from gaitwright.knowledge.consult import Decision, consult
 from gaitwright.knowledge.counterfactual import Counterfactual, counterfactual
-from gaitwright.knowledge.explain import NEAREST, STATUS, why, why_not
+from gaitwright.knowledge.explain import NEAREST, STATUS, last_move, listed, move_text, why, why_not
 from gaitwright.knowledge.forest import Situation
-from gaitwright.knowledge.rules import Event, Rule, Rulebook, outside, status
+from gaitwright.knowledge.rules import Rule, Rulebook, outside, status
 from gaitwright.knowledge.trees import ROOT, Tree
 
 
@@ -59,11 +59,6 @@ def condition(tree: Tree, value: str) -> str:
 def run_of(leaves: tuple[str, ...]) -> str:
     """How a value is called that is made of its leaves."""
     return " or ".join(leaves)
-
-
-def listed(parts: list[str]) -> str:
-    """A, b and c."""
-    return " and ".join([*([", ".join(parts[:-1])] if parts[:-1] else []), *parts[-1:]])
 
 
 # --- a decision ------------------------------------------------------------------------------------
@@ -131,15 +126,8 @@ def movers(book: Rulebook, rule: Rule, situation: Situation | None) -> Iterator[
 
 def mover(book: Rulebook, rule: str, tree: str, mark: str) -> str:
     """The lesson that put a mark where it is; empty where it never moved."""
-    event = last_event(book, rule, tree, mark)
+    event = last_move(book, rule, tree, mark)
     return "" if event is None else event.instance or "by analogy"
-
-
-def last_event(book: Rulebook, rule: str, tree: str, mark: str) -> Event | None:
-    for event in reversed(book.events):
-        if (event.rule, event.tree, event.mark) == (rule, tree, mark):
-            return event
-    return None
 
 
 def told_history(book: Rulebook, name: str) -> list[str]:
@@ -149,20 +137,12 @@ def told_history(book: Rulebook, name: str) -> list[str]:
     for instance, group in groupby(events, key=lambda event: event.instance or "by analogy"):
         told = list(group)
         first = [event for event in told if event.mark == "lower" and not event.before]
-        parts = [_moved(event) for event in told if event not in first]
+        parts = [move_text(event) for event in told if event not in first]
         if first:
             seen = listed([f"{event.tree} {event.after}" for event in first])
             parts.append(f"its lower marks were set where it was right: {seen}")
         lines.append(f"{instance}: {'; '.join(parts)}")
     return lines
-
-
-def _moved(event: Event) -> str:
-    """One event without the lesson's name."""
-    if event.mark not in ("upper", "lower"):
-        return event.why
-    before = event.before or "nowhere"
-    return f"the {event.mark} mark in {event.tree} went from {before} to {event.after}: {event.why}"
 
 
 def facts_of(book: Rulebook, rule: Rule) -> dict:

@@ -13,8 +13,7 @@ from gaitwright.knowledge.modifier import Learned
 from gaitwright.knowledge.rules import status
 from gaitwright.learning.analogies import proposals
 from gaitwright.learning.exam import held_out, right_share
-from gaitwright.learning.keeping import keep
-from gaitwright.learning.school import Schooled, attend, catch_up
+from gaitwright.learning.school import Schooled, attend, catch_up, keep
 from gaitwright.learning.teacher import ScriptedTeacher
 from gaitwright.model.robot import Robot
 from gaitwright.skillbook.book import Skillbook

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from gaitwright.knowledge.consult import Decision, consult
 from gaitwright.knowledge.forest import Situation
-from gaitwright.knowledge.rules import Event, Rule, Rulebook, outside, status
+from gaitwright.knowledge.rules import Event, Rulebook, outside, status
 from gaitwright.knowledge.trees import ROOT, Tree
 
 NEAREST = 3
@@ -37,7 +37,7 @@ def why_not(book: Rulebook, name: str, situation: Situation) -> str:
         )
     parts = []
     for tree in blocked:
-        moved = _last_move(book, name, tree)
+        moved = last_move(book, name, tree)
         since = f", since {moved.instance}" if moved else ""
         parts.append(f"{_needs(book.forest[tree], rule.marks_in(tree).upper)}, not {situation[tree]}{since}")
     return f"{name} would need {' and '.join(parts)}."
@@ -48,7 +48,8 @@ def history(book: Rulebook, name: str) -> tuple[str, ...]:
     rule = book[name]
     seen = f"{len(rule.positives)} right and {len(rule.negatives)} wrong situations"
     head = f"{name} is {STATUS[status(rule)]}: {seen}, {rule.quiet} lessons since a mark moved"
-    return (head, *(_event_text(event) for event in book.events if event.rule == name))
+    moves = [event for event in book.events if event.rule == name]
+    return (head, *(f"{event.instance or 'by analogy'}: {move_text(event)}" for event in moves))
 
 
 STATUS = {
@@ -86,7 +87,7 @@ def _because(book: Rulebook, decision: Decision) -> str:
             value = decision.situation[tree.name]
             wider = f" ({marks.upper})" if marks.upper != value else ""
             reasons.append(_says(tree, value) + wider)
-    return f"{decision.rule}, because {_listed(reasons) or 'no lesson speaks against it'}"
+    return f"{decision.rule}, because {listed(reasons) or 'no lesson speaks against it'}"
 
 
 def _outranked(book: Rulebook, decision: Decision) -> list[str]:
@@ -106,7 +107,7 @@ def _nearest(book: Rulebook, decision: Decision) -> list[str]:
     ]
     near = sorted((pair for pair in blocked if len(pair[0]) <= 2), key=lambda pair: len(pair[0]))
     return [
-        f"{rule.name} would need {_listed([_needs(book.forest[t], rule.marks_in(t).upper) for t in trees])}"
+        f"{rule.name} would need {listed([_needs(book.forest[t], rule.marks_in(t).upper) for t in trees])}"
         for trees, rule in near[:NEAREST]
     ]
 
@@ -119,23 +120,20 @@ def _wish(book: Rulebook, better: str, worse: str) -> str:
     return ""
 
 
-def _last_move(book: Rulebook, rule: str, tree: str) -> Event | None:
-    """The event that put a rule's upper mark of a tree where it is."""
+def last_move(book: Rulebook, rule: str, tree: str, mark: str = "upper") -> Event | None:
+    """The event that put a rule's mark in a tree where it is; `None` where it never moved."""
     for event in reversed(book.events):
-        if event.rule == rule and event.tree == tree and event.mark == "upper":
+        if (event.rule, event.tree, event.mark) == (rule, tree, mark):
             return event
     return None
 
 
-def _event_text(event: Event) -> str:
-    """One event as a person tells it."""
-    when = event.instance or "by analogy"
-    if event.mark in ("upper", "lower"):
-        before = event.before or "nowhere"
-        return (
-            f"{when}: the {event.mark} mark in {event.tree} went from {before} to {event.after}: {event.why}"
-        )
-    return f"{when}: {event.why}"
+def move_text(event: Event) -> str:
+    """One event as a person tells it, without the lesson's name."""
+    if event.mark not in ("upper", "lower"):
+        return event.why
+    before = event.before or "nowhere"
+    return f"the {event.mark} mark in {event.tree} went from {before} to {event.after}: {event.why}"
 
 
 def _leaf_sign(tree: Tree, upper: str, lower: str | None, leaf: str) -> str:
@@ -152,12 +150,6 @@ def _needs(tree: Tree, value: str) -> str:
     return f"{tree.name} to be {value}"
 
 
-def _listed(parts: Sequence[str]) -> str:
+def listed(parts: Sequence[str]) -> str:
     """A, b and c."""
     return " and ".join([*([", ".join(parts[:-1])] if parts[:-1] else []), *parts[-1:]])
-
-
-def rule_line(rule: Rule) -> str:
-    """A rule on one line: its upper marks as conditions, its action, its status."""
-    conditions = [f"{marks.tree} = {marks.upper}" for marks in rule.marks if marks.upper != ROOT]
-    return f"IF {' & '.join(conditions) or 'anything'} THEN {rule.action.skill} [{status(rule)}]"

@@ -67,15 +67,6 @@ class Tree:
     def is_leaf(self, value: str) -> bool:
         return value in self.leaf_place
 
-    def parent(self, value: str) -> str | None:
-        """The value it hangs below; `None` for the root."""
-        above = self.parents[self.at(value)]
-        return None if above < 0 else self.values[above]
-
-    def children(self, value: str) -> tuple[str, ...]:
-        here = self.at(value)
-        return tuple(child for child, above in zip(self.values, self.parents, strict=True) if above == here)
-
     def path(self, value: str) -> tuple[str, ...]:
         """From the root down to the value, both included."""
         steps, here = [], self.at(value)

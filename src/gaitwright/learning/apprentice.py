@@ -14,7 +14,7 @@ from gaitwright.knowledge.rules import Event, Rulebook
 from gaitwright.learning.critic import Moment, Step, criticise
 from gaitwright.learning.teacher import Correction, Teacher
 from gaitwright.skills.book_trees import in_trees_of
-from gaitwright.skills.rule_chooser import DOING, holds
+from gaitwright.skills.rule_chooser import DOING, goes_on
 from gaitwright.skills.situation import READ_FROM
 
 MOST_REPAIRS = 8
@@ -61,17 +61,11 @@ def step_of(book: Rulebook, moment: Moment) -> Step:
     """What the rules do at a moment (algorithm C): a rule whose condition does not hold yet goes on."""
     doing = str(moment.memory.get(DOING, ""))
     for rule in book.rules:
-        if rule.name == doing and goes_on(rule.action.until, moment):
+        if rule.name == doing and goes_on(rule.action, moment.situation):
             return Step(moment, rule.action, doing)
     moment = placed(book, moment)
     name = consult(book, moment.situation).rule
     return Step(moment, book[name].action if name else None, name or "")
-
-
-def goes_on(until: str, moment: Moment) -> bool:
-    """Whether what was begun goes on at a moment."""
-    under_way = moment.situation["goal"] not in ("arrived", "no goal")
-    return bool(until) and under_way and not holds(until, moment.situation)
 
 
 def study(book: Rulebook, teacher: Teacher, moments: Sequence[Moment], passes: int = 3) -> Studied:
@@ -103,9 +97,8 @@ def study(book: Rulebook, teacher: Teacher, moments: Sequence[Moment], passes: i
 
 def held(step: Step) -> bool:
     """Whether a moment tells nothing of the trees, because what was begun before went on."""
-    return bool(step.action and step.rule and step.moment.memory.get(DOING) == step.rule) and goes_on(
-        step.action.until if step.action else "", step.moment
-    )
+    begun = bool(step.rule) and step.moment.memory.get(DOING) == step.rule
+    return begun and goes_on(step.action, step.moment.situation)
 
 
 def confirmed(book: Rulebook, step: Step) -> Studied:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gaitwright.knowledge.forest import replace_value
-from gaitwright.knowledge.rules import Rulebook, status
+from gaitwright.knowledge.rules import Rulebook
 from gaitwright.learning.apprentice import corrected, step_of
 from gaitwright.learning.critic import Moment
 from gaitwright.learning.teacher import Teacher
@@ -46,11 +46,6 @@ def firm_share(book: Rulebook) -> float:
     """Share of the trees, over all rules that may fire, in which upper and lower mark meet."""
     met = [marks.upper == marks.lower for rule in book.rules if rule.may_fire for marks in rule.marks]
     return float(np.mean(met)) if met else 0.0
-
-
-def statuses(book: Rulebook) -> dict[str, str]:
-    """How far each rule has come."""
-    return {rule.name: status(rule) for rule in book.rules}
 
 
 @dataclass(frozen=True, slots=True)

@@ -163,6 +163,15 @@ def attend(  # noqa: PLR0913 - a whole school; every setting has its default
     return Schooled(studied.book, report)
 
 
+def keep(ledger: Ledger, studied: Studied) -> None:
+    """Puts every step of what was studied away in a skillbook, each durable before the next."""
+    for step in studied.steps:
+        if step.how == "edited":
+            ledger.edit(step.result.book, "a new feature, named by the teacher")
+        else:
+            ledger.record(step.lesson, step.result, step.how)
+
+
 def catch_up(ledger: Ledger) -> Rulebook:
     """The rulebook of a ledger, over today's trees: those that came after it was begun are put away first.
     Raises `WrongUse` for a book that is about something else."""

@@ -7,10 +7,8 @@ from pathlib import Path
 from typing import Literal
 
 from gaitwright.errors import BadFile, WrongUse
-from gaitwright.knowledge.correction import teach
 from gaitwright.knowledge.json_form import MAX_EVENTS
 from gaitwright.knowledge.modifier import Learned, Lesson
-from gaitwright.knowledge.repair import mend
 from gaitwright.knowledge.restructure import Mended
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.skillbook import rows
@@ -70,20 +68,6 @@ class Ledger:
         """Stores a rulebook that was changed in another way than by a lesson, and says which."""
         rulebook_entry(rulebook)
         return self._append(Step("edited", None, replace(rulebook, events=()), note), rulebook)
-
-    def teach(self, lesson: Lesson) -> Learned:
-        """Teaches and records."""
-        learned = teach(self.book.rulebook, lesson)
-        self.record(lesson, learned)
-        return learned
-
-    def mend(self, lesson: Lesson, learned: Learned) -> Mended:
-        """Mends the contradiction that a lesson just recorded ended in, and records that."""
-        if learned.trouble is None:
-            raise WrongUse("nothing contradicted the lesson: there is nothing to mend")
-        mended = mend(self.book.rulebook, learned.trouble, lesson.blame)
-        self.record(lesson, mended, "mended")
-        return mended
 
     def close(self) -> None:
         """Leaves one file without a log beside it, unless someone is reading it now."""

@@ -62,8 +62,7 @@ class RuleChooser:
         """The rule for a situation: the one in use until its condition holds, else the first that fires."""
         doing = str(memory.get(DOING, ""))
         action = self.actions.get(doing)
-        under_way = situation["goal"] not in ("arrived", "no goal")
-        if action and action.until and under_way and not holds(action.until, situation):
+        if goes_on(action, situation):
             return Ruling(doing, True, True, situation)
         rule, sure = decide(self.compiled, dict(situation.items()))  # pyright: ignore[reportArgumentType]
         return Ruling(rule, sure, False, situation)
@@ -115,6 +114,12 @@ def carried_out(robot: Robot, action: Action, route: Route, sensed: Sensed) -> S
 def room(robot: Robot, route: Route) -> float:
     """The fastest speed that leaves time to stop at the goal [m/s]."""
     return braked(robot, replace(route, speed=math.inf))
+
+
+def goes_on(action: Action | None, situation: Situation) -> bool:
+    """Whether an action that was begun goes on: there is somewhere to go, and its condition does not hold."""
+    under_way = situation["goal"] not in ("arrived", "no goal")
+    return action is not None and bool(action.until) and under_way and not holds(action.until, situation)
 
 
 def holds(until: str, situation: Situation) -> bool:

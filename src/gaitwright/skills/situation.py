@@ -1,7 +1,7 @@
 """Route + Sensed → Situation: where the robot stands among the features that rules tell apart (§5.4.2.1).
 
 `measured` reads plain numbers, in units that suit any robot: lengths of road in body heights, ways in body
-lengths, speeds as of a robot 0.29 m tall. `situation` names the leaf of each tree they fall into. Nothing
+lengths, speeds as of a robot 0.29 m tall. `named` names the leaf of each tree they fall into. Nothing
 else looks at the world for the rules: a new feature is one tree here, and one number where none has it yet. A
 rulebook that was made before knows nothing of it and is indifferent to it (`book_trees.up_to_date`).
 """
@@ -126,11 +126,6 @@ READ_FROM = {
 
 NUMBER_OF = {"distance": "remaining", "pace": "possible", "stability": "sway"}
 """The number that a tree of intervals reads, where the tree is not called like it and names no source."""
-
-
-def situation(robot: Robot, route: Route, sensed: Sensed, call: SkillCall | None = None) -> Situation:
-    """The leaf of every tree; `call` is what the robot does at the time, with its working memory."""
-    return named(measured(robot, route, sensed, call), call)
 
 
 def named(raw: Mapping[str, float], call: SkillCall | None = None) -> Situation:

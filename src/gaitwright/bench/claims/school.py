@@ -18,8 +18,7 @@ from gaitwright.knowledge.rules import Rulebook
 from gaitwright.learning.apprentice import corrected, step_of
 from gaitwright.learning.critic import Moment
 from gaitwright.learning.exam import Trial, faults, held_out, right_share, trial
-from gaitwright.learning.keeping import keep
-from gaitwright.learning.school import Schooled, attend, demonstrate, demonstrations
+from gaitwright.learning.school import Schooled, attend, demonstrate, demonstrations, keep
 from gaitwright.learning.teacher import ScriptedTeacher
 from gaitwright.skillbook.book import Skillbook
 from gaitwright.skillbook.writer import open_for_learning
