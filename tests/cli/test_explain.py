@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from gaitwright.cli import main
-from gaitwright.cli.explain_text import told_history
+from gaitwright.cli.explain_text import history_lines
 from gaitwright.cli.situation_args import asked, last_lessons, said, whatever
 from gaitwright.knowledge.consult import consult
 from gaitwright.knowledge.correction import teach
@@ -106,7 +106,7 @@ def test_the_history_has_a_line_for_each_lesson(capsys):
     told = explained(capsys, "--history", "run")
     assert "lap 1: run is new: nothing in the rulebook did this; its lower marks were set where" in told
     assert "lap 3: the upper mark in speed went from any to fast: run was wrong at speed slow." in told
-    assert figures(capsys, "--history", "run")["history"] == told_history(BOOK, "run")
+    assert figures(capsys, "--history", "run")["history"] == history_lines(BOOK, "run")
 
 
 # --- a decision ------------------------------------------------------------------------------------

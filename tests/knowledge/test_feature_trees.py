@@ -11,14 +11,14 @@ from random_books import children, is_below, parent, random_forest, random_tree
 from gaitwright.errors import WrongUse
 from gaitwright.knowledge.forest import Forest, replace_value
 from gaitwright.knowledge.memory import Action, applied, remembered
-from gaitwright.knowledge.trees import MAX_DEPTH, Tree, interval_tree, nest, regrouped, tree
+from gaitwright.knowledge.trees import MAX_DEPTH, FeatureTree, interval_tree, nest, regrouped, tree
 
 TERRAIN = tree("terrain", {"even": ("flat", "slippery"), "slope": ("uphill", "downhill"), "stairs": ()})
 SPEED = interval_tree("speed", "m/s", (0.5, 1.0, 2.0), ("slow", "medium", "fast", "very fast"))
 seeds = st.integers(0, 2**32 - 1)
 
 
-def drawn(seed: int) -> tuple[Tree, list[str]]:
+def drawn(seed: int) -> tuple[FeatureTree, list[str]]:
     """A random tree and three of its values."""
     rng = np.random.default_rng(seed)
     grown = random_tree(rng, "t", 8)
@@ -115,7 +115,7 @@ def test_intervals_are_halved_and_named_by_their_ends():
         (lambda: tree("t", ("a", "b" * 201)), "no label"),
         (lambda: tree("t", tuple(f"v{k}" for k in range(600))), "2 to 512"),
         (lambda: tree("t", _deep(MAX_DEPTH + 1)), f"deeper than {MAX_DEPTH}"),
-        (lambda: Tree("t", ("any", "a", "b"), (-1, 2, 1)), "hangs below place 2"),
+        (lambda: FeatureTree("t", ("any", "a", "b"), (-1, 2, 1)), "hangs below place 2"),
         (lambda: interval_tree("t", "m", (2.0, 1.0)), "ascending"),
         (lambda: interval_tree("t", "m", (1.0, math.nan)), "finite"),
         (lambda: interval_tree("t", "m", (1.0,), ("a", "b", "c")), "2 intervals, got 3 labels"),

@@ -12,7 +12,7 @@ from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.modifier import audit
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.learning.apprentice import confirmed, corrected, step_of, study
-from gaitwright.learning.critic import Moment, Step, criticise
+from gaitwright.learning.critic import DecisionPoint, TraceStep, criticise
 from gaitwright.learning.teacher import POLICY, Correction, ScriptedTeacher, Shown
 from gaitwright.skills.rule_chooser import DOING
 from gaitwright.skills.situation import FOREST, READ_FROM, named
@@ -31,13 +31,13 @@ TEACHER = ScriptedTeacher()
 names = st.lists(st.sampled_from(["walk", "trot", "run"]), min_size=1, max_size=12)
 
 
-def moment(memory=(), **changes) -> Moment:
+def moment(memory=(), **changes) -> DecisionPoint:
     raw = EASY | {name.replace("_", " "): value for name, value in changes.items()}
-    return Moment(f"{changes}", named(raw), raw, dict(memory))
+    return DecisionPoint(f"{changes}", named(raw), raw, dict(memory))
 
 
-def trace(skills) -> list[Step]:
-    return [Step(moment(remaining=5.0 + k), Action(skill), skill) for k, skill in enumerate(skills)]
+def trace(skills) -> list[TraceStep]:
+    return [TraceStep(moment(remaining=5.0 + k), Action(skill), skill) for k, skill in enumerate(skills)]
 
 
 @given(names, st.data())

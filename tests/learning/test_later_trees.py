@@ -18,7 +18,7 @@ from gaitwright.knowledge.rules import Rulebook
 from gaitwright.knowledge.trees import interval_tree, tree
 from gaitwright.knowledge.widen import widened
 from gaitwright.learning.apprentice import corrected, step_of, study
-from gaitwright.learning.critic import Moment
+from gaitwright.learning.critic import DecisionPoint
 from gaitwright.learning.school import catch_up, keep
 from gaitwright.skillbook import Skillbook, open_for_learning
 from gaitwright.skills import book_trees, situation
@@ -112,9 +112,9 @@ def test_a_book_of_the_first_version_learns_with_a_tree_that_came_later(school, 
         assert rules["trot"].marks_in("hurry").lower is not None, "it was seen right since"
 
 
-def moment_like(raw) -> Moment:
+def moment_like(raw) -> DecisionPoint:
     """What a robot of this version's trees makes of measured numbers."""
-    return Moment("later", named(raw), raw, {})
+    return DecisionPoint("later", named(raw), raw, {})
 
 
 def assert_drives_alike(rules: Rulebook, decided: list) -> None:

@@ -13,7 +13,7 @@ from gaitwright.knowledge.repair import mend
 from gaitwright.knowledge.restructure import Mended
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.skillbook import Ledger, Skillbook
-from gaitwright.skillbook.history import Step, settled
+from gaitwright.skillbook.history import Step, number_lesson
 from knowledge.random_books import random_book, random_forest, random_situation
 
 
@@ -37,7 +37,7 @@ def truthful_lesson(rng: np.random.Generator, truth: Rulebook) -> Lesson:
 
 def corrected(book: Skillbook, lesson: Lesson) -> Skillbook:
     """The book after one correction, mended until it is learned or nothing can mend it."""
-    lesson = settled(lesson, book.rulebook.lessons)
+    lesson = number_lesson(lesson, book.rulebook.lessons)
     for _ in range(10):
         learned = teach(book.rulebook, lesson)
         trouble = learned.trouble

@@ -19,7 +19,7 @@ from gaitwright.knowledge.trees import tree
 from gaitwright.signals import Scan
 from gaitwright.skills.chooser import PlainChooser
 from gaitwright.skills.library import speed_scale
-from gaitwright.skills.rule_chooser import DOING, RuleChooser, carried_out
+from gaitwright.skills.rule_chooser import DOING, RuleChooser, carry_out
 from gaitwright.skills.situation import FOREST, measured, named
 from oracles import robot_called
 
@@ -68,7 +68,7 @@ def test_the_rule_is_the_one_that_consulting_finds(place, yaw, speed, left):
 def test_it_goes_as_fast_as_wished_within_the_rule_and_slower_before_the_goal(wish, left, a, b):
     slow, fast = sorted((a, b))
     way = route((5.0, 0.0), speed=wish, remaining=left)
-    call = carried_out(DOG, Action("trot", slow, fast), way, sensed())
+    call = carry_out(DOG, Action("trot", slow, fast), way, sensed())
     k = speed_scale(DOG)
     brake = max(0.1 * k, 0.6 / k * left)
     assert call.velocity[0] <= min(fast * k, max(wish, slow * k), brake) + 1e-9

@@ -13,13 +13,13 @@ from gaitwright.cli.explain_text import (
     because,
     changes,
     facts_of,
+    history_lines,
     movers,
     opening,
     others,
     reasons_against,
     sentence_of,
     title,
-    told_history,
     verdict,
 )
 from gaitwright.cli.output import check_json, write_json
@@ -96,7 +96,7 @@ def tell_rule(book: Rulebook, name: str, aside: bool) -> None:
 
 def tell_history(book: Rulebook, name: str, figures: dict, aside: bool) -> None:
     """Every lesson that moved a rule, the oldest first."""
-    events = figures["history"] = told_history(book, name)
+    events = figures["history"] = history_lines(book, name)
     if aside:
         return
     show_prose(f"{title(book[name])}:")

@@ -11,7 +11,7 @@ from gaitwright.knowledge.counterfactual import Counterfactual, counterfactual
 from gaitwright.knowledge.explain import NEAREST, STATUS, last_move, listed, move_text, why, why_not
 from gaitwright.knowledge.forest import Situation
 from gaitwright.knowledge.rules import Rule, Rulebook, outside, status
-from gaitwright.knowledge.trees import ROOT, Tree
+from gaitwright.knowledge.trees import ROOT, FeatureTree
 
 
 def opening(book: Rulebook, name: str) -> str:
@@ -21,10 +21,10 @@ def opening(book: Rulebook, name: str) -> str:
             f"{name} has no rules yet, over {counted(len(book.forest.names), 'tree')}: nobody has taught it."
         )
     states = Counter(status(rule) for rule in book.rules)
-    told = ", ".join(f"{number} {state}" for state, number in states.items())
+    counts = ", ".join(f"{number} {state}" for state, number in states.items())
     return (
         f"{name} knows {counted(len(book.rules), 'rule')} over {counted(len(book.forest.names), 'tree')}, "
-        f"from {counted(book.lessons, 'lesson')} ({told}). "
+        f"from {counted(book.lessons, 'lesson')} ({counts}). "
         "The first of them that fits a situation fires."
     )
 
@@ -43,13 +43,13 @@ def sentence_of(book: Rulebook, rule: Rule) -> str:
     trees = list(zip(book.forest.trees, rule.marks, strict=True))
     met = [condition(tree, marks.upper) for tree, marks in trees if marks.upper != ROOT]
     grey = [tree.name for tree, marks in trees if marks.upper != marks.lower]
-    told = f"fires when {listed(met)}" if met else "fires wherever none before it does"
+    sentence = f"fires when {listed(met)}" if met else "fires wherever none before it does"
     if not grey:
-        return f"{told}, and that is sure"
-    return f"{told}; grey in {len(grey)} of {len(trees)} trees"
+        return f"{sentence}, and that is sure"
+    return f"{sentence}; grey in {len(grey)} of {len(trees)} trees"
 
 
-def condition(tree: Tree, value: str) -> str:
+def condition(tree: FeatureTree, value: str) -> str:
     """A tree's value as a person says it; where one stands for a few leaves, with these."""
     below = tree.leaves_below(value)
     wider = f" ({', '.join(below)})" if 1 < len(below) <= 4 and value not in (run_of(below), *below) else ""
@@ -130,14 +130,14 @@ def mover(book: Rulebook, rule: str, tree: str, mark: str) -> str:
     return "" if event is None else event.instance or "by analogy"
 
 
-def told_history(book: Rulebook, name: str) -> list[str]:
+def history_lines(book: Rulebook, name: str) -> list[str]:
     """A line for each lesson that moved something of a rule, the oldest first."""
     lines = []
     events = [event for event in book.events if event.rule == name]
     for instance, group in groupby(events, key=lambda event: event.instance or "by analogy"):
-        told = list(group)
-        first = [event for event in told if event.mark == "lower" and not event.before]
-        parts = [move_text(event) for event in told if event not in first]
+        moves = list(group)
+        first = [event for event in moves if event.mark == "lower" and not event.before]
+        parts = [move_text(event) for event in moves if event not in first]
         if first:
             seen = listed([f"{event.tree} {event.after}" for event in first])
             parts.append(f"its lower marks were set where it was right: {seen}")

@@ -12,7 +12,7 @@ from gaitwright.knowledge.counterfactual import counterfactual
 from gaitwright.knowledge.forest import Forest, Situation, leaf_in, replace_value
 from gaitwright.knowledge.memory import Fact
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.knowledge.trees import Tree
+from gaitwright.knowledge.trees import FeatureTree
 
 SAID, RECORDED = "said", "recorded"
 MOST = 64
@@ -103,8 +103,8 @@ def _decided_otherwise(book: Rulebook, at: Asked) -> str:
             situation = replace_value(book.forest, situation, tree, leaf)
         rule = consult(book, situation).rule
         if rule != now:
-            told = " and ".join(f"{tree} is {leaf}" for tree, leaf in zip(within, leaves, strict=True))
-            return f"{rule or 'no rule'} would fire if {told}"
+            condition = " and ".join(f"{tree} is {leaf}" for tree, leaf in zip(within, leaves, strict=True))
+            return f"{rule or 'no rule'} would fire if {condition}"
         other = counterfactual(book, situation, keep=keep, compiled=table)
         if other.decision is not None:
             return other.sentence
@@ -112,7 +112,7 @@ def _decided_otherwise(book: Rulebook, at: Asked) -> str:
 
 
 def _leaf(
-    tree: Tree, value: str | None, facts: Mapping[str, Fact], lessons: Sequence[tuple[str, Situation]]
+    tree: FeatureTree, value: str | None, facts: Mapping[str, Fact], lessons: Sequence[tuple[str, Situation]]
 ) -> tuple[str, str] | None:
     """A tree's leaf and where it comes from; `None` where nothing tells."""
     if value is not None:
@@ -131,7 +131,7 @@ def _leaf(
     return _taught(tree, tree.leaves, lessons)
 
 
-def _said_leaf(tree: Tree, value: str) -> str | None:
+def _said_leaf(tree: FeatureTree, value: str) -> str | None:
     """The leaf of that name, or the interval of that number, with or without its unit."""
     if tree.is_leaf(value):
         return value
@@ -143,7 +143,7 @@ def _said_leaf(tree: Tree, value: str) -> str | None:
 
 
 def _taught(
-    tree: Tree, leaves: Sequence[str], lessons: Sequence[tuple[str, Situation]]
+    tree: FeatureTree, leaves: Sequence[str], lessons: Sequence[tuple[str, Situation]]
 ) -> tuple[str, str] | None:
     """The leaf among these that the last lesson had which had one."""
     for name, situation in lessons:

@@ -29,8 +29,8 @@ def mirrored(
         raise WrongUse(f"there is a rule {new_name!r} already")
     shell = replace(
         empty_rule(book.forest, new_name, action_map(rule.action)),
-        positives=tuple(_carried(instance, name, value_maps) for instance in rule.positives),
-        negatives=tuple(_carried(instance, name, value_maps) for instance in rule.negatives),
+        positives=tuple(_map_instance(instance, name, value_maps) for instance in rule.positives),
+        negatives=tuple(_map_instance(instance, name, value_maps) for instance in rule.negatives),
         choices=rule.choices,
         proposed=True,
     )
@@ -53,7 +53,7 @@ def confirm(book: Rulebook, name: str, instance: str) -> Learned:
     return Learned(replace(book, rules=rules, events=(*book.events, event)), (event,))
 
 
-def _carried(instance: Instance, name: str, value_maps: ValueMaps) -> Instance:
+def _map_instance(instance: Instance, name: str, value_maps: ValueMaps) -> Instance:
     """An instance as it would be on the other side, marked as never seen."""
     values = tuple(
         None if value is None else value_maps.get(tree, {}).get(value, value)

@@ -129,6 +129,6 @@ def _ordered(book: Rulebook, rules: tuple[Rule, ...], wish: Preference) -> Learn
     """The rulebook with its rules in this order, and the wish that brought it about."""
     why = f"both could fire at {wish.instance}, and {wish.better} is preferred to {wish.worse}"
     event = Event(wish.instance, wish.better, "", "order", f"after {wish.worse}", f"before {wish.worse}", why)
-    wishes, told = (*book.preferences, wish), (*book.events, event)
-    new = replace(book, rules=rules, preferences=wishes, events=told, lessons=book.lessons + 1)
+    wishes, events = (*book.preferences, wish), (*book.events, event)
+    new = replace(book, rules=rules, preferences=wishes, events=events, lessons=book.lessons + 1)
     return Learned(new, (event,))

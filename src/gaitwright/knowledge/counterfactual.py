@@ -10,7 +10,7 @@ from gaitwright.knowledge.compiled import Compiled, compile_book
 from gaitwright.knowledge.consult import Decision, consult
 from gaitwright.knowledge.forest import Forest, Situation
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.knowledge.trees import Tree
+from gaitwright.knowledge.trees import FeatureTree
 
 MAX_TRIED = 20_000
 """So many partial changes are looked at before the search gives up."""
@@ -77,8 +77,8 @@ def counterfactual(
         for (tree, before), after in zip(situation.items(), changed.values, strict=True)
         if before != after
     )
-    told = " and ".join(_said(forest[change.tree], change) for change in changes)
-    return Counterfactual(changes, decision, f"{decision.rule or 'no rule'} would fire if {told}")
+    condition = " and ".join(_said(forest[change.tree], change) for change in changes)
+    return Counterfactual(changes, decision, f"{decision.rule or 'no rule'} would fire if {condition}")
 
 
 def _search(
@@ -146,7 +146,7 @@ def _cost(away: list[list[int]], start: tuple[int, ...], leaves: tuple[int, ...]
     return changed, sum(steps[leaf] for steps, leaf in zip(away, leaves, strict=True))
 
 
-def _said(tree: Tree, change: Change) -> str:
+def _said(tree: FeatureTree, change: Change) -> str:
     return f"{tree.about or tree.name + ' is'} {change.after} instead of {change.before}"
 
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from gaitwright.knowledge.consult import Decision, consult
 from gaitwright.knowledge.forest import Situation
 from gaitwright.knowledge.rules import Event, Rulebook, outside, status
-from gaitwright.knowledge.trees import ROOT, Tree
+from gaitwright.knowledge.trees import ROOT, FeatureTree
 
 NEAREST = 3
 """So many of the rules that did not fire are told of."""
@@ -16,8 +16,8 @@ def why(book: Rulebook, decision: Decision) -> str:
     """What speaks for the decision, what kept the nearest others out, and where it rests on nothing seen."""
     sentences = [_because(book, decision), *_outranked(book, decision), *_nearest(book, decision)]
     if decision.grey:
-        told = " and ".join(_says(book.forest[tree], decision.situation[tree]) for tree in decision.grey)
-        sentences.append(f"nobody has yet seen {decision.rule} where {told}: grey")
+        values = " and ".join(_says(book.forest[tree], decision.situation[tree]) for tree in decision.grey)
+        sentences.append(f"nobody has yet seen {decision.rule} where {values}: grey")
     return "; ".join(sentences) + "."
 
 
@@ -136,17 +136,17 @@ def move_text(event: Event) -> str:
     return f"the {event.mark} mark in {event.tree} went from {before} to {event.after}: {event.why}"
 
 
-def _leaf_sign(tree: Tree, upper: str, lower: str | None, leaf: str) -> str:
+def _leaf_sign(tree: FeatureTree, upper: str, lower: str | None, leaf: str) -> str:
     if not tree.is_below(leaf, upper):
         return "−"
     return "+" if lower is not None and tree.is_below(leaf, lower) else "?"
 
 
-def _says(tree: Tree, value: str | None) -> str:
+def _says(tree: FeatureTree, value: str | None) -> str:
     return f"{tree.about or tree.name + ' is'} {value or 'unknown'}"
 
 
-def _needs(tree: Tree, value: str) -> str:
+def _needs(tree: FeatureTree, value: str) -> str:
     return f"{tree.name} to be {value}"
 
 

@@ -13,7 +13,7 @@ from gaitwright.knowledge.mark_fitting import fit_all, with_instance
 from gaitwright.knowledge.memory import Fact
 from gaitwright.knowledge.modifier import Inconsistency, Learned, closed, contradiction, moves
 from gaitwright.knowledge.rules import Event, Rule, Rulebook
-from gaitwright.knowledge.trees import ROOT, Tree, interval_tree, tree
+from gaitwright.knowledge.trees import ROOT, FeatureTree, interval_tree, tree
 from gaitwright.knowledge.widen import seen_in, widened
 
 MOST_BOUNDS = 3
@@ -27,7 +27,7 @@ class Proposal:
     with the spread of that measurement over all instances: the larger, the less it is chance.
     """
 
-    tree: Tree
+    tree: FeatureTree
     clearness: float
     sentence: str
     trouble: Inconsistency
@@ -110,7 +110,7 @@ def _proposal(
 
 def _intervals(
     name: str, rights: Sequence[float], wrongs: Sequence[float], known: Sequence[float]
-) -> tuple[Tree, float] | None:
+) -> tuple[FeatureTree, float] | None:
     """Intervals with a bound wherever right turns into wrong, and how wide the narrowest gap is [spreads]."""
     ordered = sorted({(value, True) for value in rights} | {(value, False) for value in wrongs})
     runs = [[value for value, _ in run] for _, run in groupby(ordered, key=lambda pair: pair[1])]
@@ -124,7 +124,7 @@ def _intervals(
 
 def _names(
     name: str, rights: Sequence[str], wrongs: Sequence[str], known: Sequence[str]
-) -> tuple[Tree, float] | None:
+) -> tuple[FeatureTree, float] | None:
     """The values met so far, those that were right under one value of their own, those that were wrong
     too."""
     groups = [sorted(set(rights)), sorted(set(wrongs))]

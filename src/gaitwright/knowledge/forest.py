@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from gaitwright.errors import WrongUse, unknown
 from gaitwright.knowledge.memory import Fact
-from gaitwright.knowledge.trees import Tree
+from gaitwright.knowledge.trees import FeatureTree
 
 MAX_TREES = 64
 OTHER = "other"
@@ -33,7 +33,7 @@ class Situation:
 class Forest:
     """The features in which situations differ, in order."""
 
-    trees: tuple[Tree, ...]
+    trees: tuple[FeatureTree, ...]
     names: tuple[str, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -46,7 +46,7 @@ class Forest:
             raise WrongUse(f"the forest has two trees named {twice[0]!r}")
         object.__setattr__(self, "names", names)
 
-    def __getitem__(self, name: str) -> Tree:
+    def __getitem__(self, name: str) -> FeatureTree:
         """The tree of that name. Raises `WrongUse` naming the trees there are."""
         if name not in self.names:
             raise unknown("tree", name, self.names)
@@ -89,7 +89,7 @@ class Forest:
             self.names, tuple(tree.leaves[k] for tree, k in zip(self.trees, places, strict=True))
         )
 
-    def replaced(self, tree: Tree) -> "Forest":
+    def replaced(self, tree: FeatureTree) -> "Forest":
         """The forest with its tree of that name replaced by this one."""
         self[tree.name]
         return Forest(tuple(tree if tree.name == old.name else old for old in self.trees))
@@ -103,7 +103,7 @@ def replace_value(forest: Forest, situation: Situation, tree: str, value: str | 
     return Situation(situation.trees, tuple(values))
 
 
-def leaf_in(tree: Tree, facts: Mapping[str, Fact]) -> str | None:
+def leaf_in(tree: FeatureTree, facts: Mapping[str, Fact]) -> str | None:
     """The leaf that the fact which a tree is read from falls into; `None` where it was not measured, or is
     none that the tree could place."""
     fact = facts.get(tree.source or tree.name)
@@ -114,7 +114,7 @@ def leaf_in(tree: Tree, facts: Mapping[str, Fact]) -> str | None:
     return OTHER if OTHER in tree.leaf_place else None
 
 
-def _leaf(tree: Tree, value: str | float) -> str:
+def _leaf(tree: FeatureTree, value: str | float) -> str:
     """A leaf of the tree, from its name or a number. Raises `WrongUse` naming the leaves there are."""
     if not isinstance(value, str):
         return tree.leaf_of(float(value))

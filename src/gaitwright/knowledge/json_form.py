@@ -21,7 +21,7 @@ from gaitwright.knowledge.rules import (
     Rule,
     Rulebook,
 )
-from gaitwright.knowledge.trees import MAX_LABEL, MAX_LEAVES, Tree
+from gaitwright.knowledge.trees import MAX_LABEL, MAX_LEAVES, FeatureTree
 
 FORMAT = 1
 MAX_BYTES = 100_000_000
@@ -190,7 +190,9 @@ def _instance_entry(i: Instance) -> InstanceEntry:
 def _book(entry: BookEntry) -> Rulebook:
     """Values from an entry. Raises `WrongUse` for whatever does not fit together."""
     forest = Forest(
-        tuple(Tree(t.name, t.values, t.parents, t.about, t.unit, t.bounds, t.source) for t in entry.trees)
+        tuple(
+            FeatureTree(t.name, t.values, t.parents, t.about, t.unit, t.bounds, t.source) for t in entry.trees
+        )
     )
     book = Rulebook(
         forest,

@@ -79,8 +79,13 @@ def learn(book: Rulebook, lesson: Lesson) -> Learned:
 
 def closed(book: Rulebook, rule: Rule, events: tuple[Event, ...]) -> Learned:
     """The rulebook with the changed rule, one lesson older."""
-    told = (*book.events, *events)
-    return Learned(replace(book, rules=book.with_rule(rule), events=told, lessons=book.lessons + 1), events)
+    after = replace(
+        book,
+        rules=book.with_rule(rule),
+        events=(*book.events, *events),
+        lessons=book.lessons + 1,
+    )
+    return Learned(after, events)
 
 
 def with_rule_for(

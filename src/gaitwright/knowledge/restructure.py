@@ -10,7 +10,7 @@ from gaitwright.knowledge.forest import Forest
 from gaitwright.knowledge.mark_fitting import refit, tightened, with_instance
 from gaitwright.knowledge.modifier import Inconsistency
 from gaitwright.knowledge.rules import Event, Instance, Preference, Rule, Rulebook
-from gaitwright.knowledge.trees import Tree, nest, regrouped, run_label
+from gaitwright.knowledge.trees import FeatureTree, nest, regrouped, run_label
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,7 +21,7 @@ class Group:
     keeps_out: int = 0
     keeps_out_of_all: int = 0
     lost: int = 0
-    tree: Tree | None = None
+    tree: FeatureTree | None = None
     label: str = ""
 
     def on(self, blame: str) -> bool:
@@ -92,8 +92,9 @@ def split(book: Rulebook, trouble: Inconsistency) -> Mended:
     )
     born = tuple(Event(trouble.instance.id, name, "", "rule", rule.name, name, sentence) for name in names)
     wishes = tuple(part for wish in book.preferences for part in _shared_out(wish, rule.name, quiet))
-    told = (*book.events, *born)
-    new = replace(book, rules=rules, preferences=wishes, events=told, lessons=book.lessons + 1)
+    new = replace(
+        book, rules=rules, preferences=wishes, events=(*book.events, *born), lessons=book.lessons + 1
+    )
     return Mended(new, "split", sentence, born)
 
 
@@ -136,7 +137,7 @@ def _new_group(
     return Group(keeps_out, of_all, len(old) - len(kept), grown, label)
 
 
-def _group_label(tree: Tree, bits: int) -> str:
+def _group_label(tree: FeatureTree, bits: int) -> str:
     """What a group of leaves is called: its members, or the ends of a run; told apart from what there is."""
     leaves = [leaf for k, leaf in enumerate(tree.leaves) if bits >> k & 1]
     label = run_label(leaves) if tree.bounds else " or ".join(leaves)
@@ -151,10 +152,10 @@ def _regrouped_book(
     book: Rulebook, trouble: Inconsistency, forest: Forest, fitted: Rule, grown: Sequence[Group]
 ) -> Mended:
     """The rulebook over the new trees: all other rules as they were, their marks' values all still there."""
-    told = " and ".join(
+    condition = " and ".join(
         f"{group.tree.name} now has the value {group.label!r}" for group in grown if group.tree
     )
-    sentence = f"{told}, so that {trouble.rule} can be right there and nowhere else ({trouble.sentence})"
+    sentence = f"{condition}, so that {trouble.rule} can be right there and nowhere else ({trouble.sentence})"
     before = book[trouble.rule]
     events = [
         Event(trouble.instance.id, trouble.rule, group.tree.name, "tree", "", group.label, sentence)

@@ -7,10 +7,10 @@ from dataclasses import replace
 from gaitwright.knowledge.forest import Forest
 from gaitwright.knowledge.generalise import raised
 from gaitwright.knowledge.rules import Instance, Marks, Rule, Rulebook
-from gaitwright.knowledge.trees import Tree
+from gaitwright.knowledge.trees import FeatureTree
 
 
-def widened(rules: Rulebook, trees: Sequence[Tree]) -> Rulebook:
+def widened(rules: Rulebook, trees: Sequence[FeatureTree]) -> Rulebook:
     """The rulebook with those of the trees that it does not have, behind its own; itself where it has all.
 
     Every rule is indifferent to a new tree: its upper mark is the root, so whatever fired fires at any value
@@ -29,7 +29,7 @@ def widened(rules: Rulebook, trees: Sequence[Tree]) -> Rulebook:
     return replace(rules, forest=forest, rules=wider, preferences=wishes)
 
 
-def marks_around(tree: Tree, positives: Sequence[Instance]) -> Marks:
+def marks_around(tree: FeatureTree, positives: Sequence[Instance]) -> Marks:
     """The marks of a rule in a tree that is new to it: nothing is excluded, and the lower mark holds all that
     was right."""
     marks = Marks(tree.name)

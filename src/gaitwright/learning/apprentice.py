@@ -11,7 +11,7 @@ from gaitwright.knowledge.modifier import Inconsistency, Learned, Lesson, learn
 from gaitwright.knowledge.repair import mend
 from gaitwright.knowledge.restructure import Mended
 from gaitwright.knowledge.rules import Event, Rulebook
-from gaitwright.learning.critic import Moment, Step, criticise
+from gaitwright.learning.critic import DecisionPoint, TraceStep, criticise
 from gaitwright.learning.teacher import Correction, Teacher
 from gaitwright.skills.book_trees import in_trees_of
 from gaitwright.skills.rule_chooser import DOING, goes_on
@@ -24,7 +24,7 @@ MOST_RECALLS = 3
 
 
 @dataclass(frozen=True, slots=True)
-class Taken:
+class LearningStep:
     """One step of a rulebook, as a ledger keeps it."""
 
     how: Literal["taught", "learned", "mended", "edited"]
@@ -42,7 +42,7 @@ class Studied:
     corrections: int = 0
     events: tuple[Event, ...] = ()
     open: tuple[Inconsistency, ...] = ()
-    steps: tuple[Taken, ...] = ()
+    steps: tuple[LearningStep, ...] = ()
     """Every step from the rulebook before to this one, in order."""
 
     def then(self, other: "Studied") -> "Studied":
@@ -57,18 +57,18 @@ class Studied:
         )
 
 
-def step_of(book: Rulebook, moment: Moment) -> Step:
+def step_of(book: Rulebook, moment: DecisionPoint) -> TraceStep:
     """What the rules do at a moment (algorithm C): a rule whose condition does not hold yet goes on."""
     doing = str(moment.memory.get(DOING, ""))
     for rule in book.rules:
         if rule.name == doing and goes_on(rule.action, moment.situation):
-            return Step(moment, rule.action, doing)
-    moment = placed(book, moment)
+            return TraceStep(moment, rule.action, doing)
+    moment = in_own_trees(book, moment)
     name = consult(book, moment.situation).rule
-    return Step(moment, book[name].action if name else None, name or "")
+    return TraceStep(moment, book[name].action if name else None, name or "")
 
 
-def study(book: Rulebook, teacher: Teacher, moments: Sequence[Moment], passes: int = 3) -> Studied:
+def study(book: Rulebook, teacher: Teacher, moments: Sequence[DecisionPoint], passes: int = 3) -> Studied:
     """The rulebook after a trip of the teacher's was watched: the critic's lessons, one difference at a time.
 
     Each pass goes through the trip once: what was right is confirmed, each first difference corrected.
@@ -77,7 +77,7 @@ def study(book: Rulebook, teacher: Teacher, moments: Sequence[Moment], passes: i
     moments = [moment for moment in moments if teacher.ideal(moment.raw).clear]
     for _ in range(passes):
         before = studied.corrections
-        ideal = [Step(moment, teacher.ideal(moment.raw).action) for moment in moments]
+        ideal = [TraceStep(moment, teacher.ideal(moment.raw).action) for moment in moments]
         start = 0
         while start < len(moments):
             done = [step_of(studied.book, moment) for moment in moments[start:]]
@@ -87,7 +87,7 @@ def study(book: Rulebook, teacher: Teacher, moments: Sequence[Moment], passes: i
             if found.wrong is None:
                 break
             correction = teacher.judge(found.wrong.action, found.wrong.moment.raw)
-            if correction is not None and not held(found.wrong):
+            if correction is not None and not only_goes_on(found.wrong):
                 studied = studied.then(corrected(studied.book, found.wrong.moment, correction))
             start += found.at + 1
         if studied.corrections == before:
@@ -95,29 +95,29 @@ def study(book: Rulebook, teacher: Teacher, moments: Sequence[Moment], passes: i
     return studied
 
 
-def held(step: Step) -> bool:
+def only_goes_on(step: TraceStep) -> bool:
     """Whether a moment tells nothing of the trees, because what was begun before went on."""
     begun = bool(step.rule) and step.moment.memory.get(DOING) == step.rule
     return begun and goes_on(step.action, step.moment.situation)
 
 
-def confirmed(book: Rulebook, step: Step) -> Studied:
+def confirmed(book: Rulebook, step: TraceStep) -> Studied:
     """The rulebook with a positive instance for the rule that was right."""
-    if not step.rule or held(step):
+    if not step.rule or only_goes_on(step):
         return Studied(book)
-    moment = placed(book, step.moment)
+    moment = in_own_trees(book, step.moment)
     lesson = Lesson("positive", step.rule, moment.situation, moment.id, "was right", moment.raw)
     learned = learn(book, lesson)
-    return Studied(learned.book, 1, 0, learned.events, steps=(Taken("learned", lesson, learned),))
+    return Studied(learned.book, 1, 0, learned.events, steps=(LearningStep("learned", lesson, learned),))
 
 
-def outranked(book: Rulebook, teacher: Teacher, moment: Moment) -> Studied:
+def outranked(book: Rulebook, teacher: Teacher, moment: DecisionPoint) -> Studied:
     """The rulebook in which rules that could have fired too, but come later, keep out of this moment.
 
     What the teacher did there says that their actions were wrong. Where their marks cannot keep out, the
     order of the rules goes on doing it.
     """
-    moment = placed(book, moment)
+    moment = in_own_trees(book, moment)
     right, studied = teacher.ideal(moment.raw).action, Studied(book)
     for name in consult(book, moment.situation).conflict[1:]:
         rule = book[name]
@@ -128,15 +128,15 @@ def outranked(book: Rulebook, teacher: Teacher, moment: Moment) -> Studied:
         lesson = Lesson("commission", name, moment.situation, moment.id, "was outranked", moment.raw, blame)
         learned = learn(studied.book, lesson)
         if learned.trouble is None:
-            taken = (Taken("learned", lesson, learned),)
+            taken = (LearningStep("learned", lesson, learned),)
             studied = studied.then(Studied(learned.book, 1, 0, learned.events, steps=taken))
     return studied
 
 
-def corrected(book: Rulebook, moment: Moment, correction: Correction) -> Studied:
+def corrected(book: Rulebook, moment: DecisionPoint, correction: Correction) -> Studied:
     """The rulebook after one correction; what was right before and no longer is, is taught again from
     memory."""
-    shown, moment = correction.right, placed(book, moment)
+    shown, moment = correction.right, in_own_trees(book, moment)
     lesson = Lesson(
         "omission",
         shown.rule,
@@ -157,7 +157,7 @@ def corrected(book: Rulebook, moment: Moment, correction: Correction) -> Studied
                 after, _, more = taught(after, old, "")
                 steps += more
         if step_of(after, moment).action != shown.action:
-            again = replace(lesson, situation=placed(after, moment).situation)
+            again = replace(lesson, situation=in_own_trees(after, moment).situation)
             after, trouble, more = taught(after, again, "")
             steps += more
     events = after.events[len(book.events) :]
@@ -166,23 +166,23 @@ def corrected(book: Rulebook, moment: Moment, correction: Correction) -> Studied
 
 def taught(
     book: Rulebook, lesson: Lesson, about: str
-) -> tuple[Rulebook, Inconsistency | None, tuple[Taken, ...]]:
+) -> tuple[Rulebook, Inconsistency | None, tuple[LearningStep, ...]]:
     """The rulebook after one lesson, mended wherever it contradicts itself; the contradiction if nothing
     mends it; and the steps that were taken. `about` is the number that a new feature may be made from."""
-    steps: tuple[Taken, ...] = ()
+    steps: tuple[LearningStep, ...] = ()
     for _ in range(MOST_REPAIRS):
         learned = teach(book, lesson)
-        book, steps = learned.book, (*steps, Taken("taught", lesson, learned))
+        book, steps = learned.book, (*steps, LearningStep("taught", lesson, learned))
         if learned.trouble is None:
             return book, None, steps
         mended = mend(book, learned.trouble, lesson.blame)
         if mended.how != "none":
-            book, steps = mended.book, (*steps, Taken("mended", lesson, mended))
+            book, steps = mended.book, (*steps, LearningStep("mended", lesson, mended))
             continue
         grown = with_feature(book, learned.trouble, about)
         if grown is None:
             return book, learned.trouble, steps
-        book, steps = grown.book, (*steps, Taken("edited", lesson, grown))
+        book, steps = grown.book, (*steps, LearningStep("edited", lesson, grown))
         value = lesson.raw.get(book.forest.trees[-1].source)
         if value is None:
             return book, None, steps
@@ -209,6 +209,6 @@ def with_feature(book: Rulebook, trouble: Inconsistency, about: str) -> Learned 
     return None
 
 
-def placed(book: Rulebook, moment: Moment) -> Moment:
+def in_own_trees(book: Rulebook, moment: DecisionPoint) -> DecisionPoint:
     """The moment in the rulebook's own trees: those it grew since are read from the numbers."""
     return replace(moment, situation=in_trees_of(book, moment.situation, moment.raw))

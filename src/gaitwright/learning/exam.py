@@ -8,7 +8,7 @@ import numpy as np
 from gaitwright.knowledge.forest import replace_value
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.learning.apprentice import corrected, step_of
-from gaitwright.learning.critic import Moment
+from gaitwright.learning.critic import DecisionPoint
 from gaitwright.learning.teacher import Teacher
 from gaitwright.learning.trips import EXAM, trips
 from gaitwright.model.robot import Robot
@@ -20,9 +20,9 @@ JITTER = 0.05
 """All other numbers vary by this share."""
 
 
-def held_out(robot: Robot, teacher: Teacher, seed: int, n: int = 200) -> tuple[Moment, ...]:
+def held_out(robot: Robot, teacher: Teacher, seed: int, n: int = 200) -> tuple[DecisionPoint, ...]:
     """Moments to be examined on, from trips in scenes that no school has seen; at most eight of a trip."""
-    found: list[Moment] = []
+    found: list[DecisionPoint] = []
     for trip in trips(robot, teacher, EXAM * 1000 + seed):
         rng = np.random.default_rng([seed, len(found), 8])
         picked = sorted(rng.choice(len(trip), min(8, len(trip)), replace=False).tolist())
@@ -32,12 +32,12 @@ def held_out(robot: Robot, teacher: Teacher, seed: int, n: int = 200) -> tuple[M
     return tuple(found[:n])
 
 
-def right_share(book: Rulebook, teacher: Teacher, moments: Sequence[Moment]) -> float:
+def right_share(book: Rulebook, teacher: Teacher, moments: Sequence[DecisionPoint]) -> float:
     """Share of the moments at which the rules do what the teacher would."""
     return float(np.mean([is_right(book, teacher, moment) for moment in moments]))
 
 
-def is_right(book: Rulebook, teacher: Teacher, moment: Moment) -> bool:
+def is_right(book: Rulebook, teacher: Teacher, moment: DecisionPoint) -> bool:
     """Whether the rules do what the teacher would."""
     return step_of(book, moment).action == teacher.ideal(moment.raw).action
 
@@ -52,7 +52,7 @@ def firm_share(book: Rulebook) -> float:
 class Trial:
     """What one correction did."""
 
-    moment: Moment
+    moment: DecisionPoint
     variants: int
     """Unseen variants of the fault, at which the rules were wrong in the same way."""
     mended: int
@@ -63,7 +63,7 @@ class Trial:
     """Of these, wrong afterwards."""
 
 
-def faults(book: Rulebook, teacher: Teacher, moments: Sequence[Moment]) -> list[Moment]:
+def faults(book: Rulebook, teacher: Teacher, moments: Sequence[DecisionPoint]) -> list[DecisionPoint]:
     """The moments at which a teacher would correct the rules."""
     return [m for m in moments if teacher.judge(step_of(book, m).action, m.raw) is not None]
 
@@ -71,8 +71,8 @@ def faults(book: Rulebook, teacher: Teacher, moments: Sequence[Moment]) -> list[
 def trial(
     book: Rulebook,
     teacher: Teacher,
-    fault: Moment,
-    pool: Sequence[Moment],
+    fault: DecisionPoint,
+    pool: Sequence[DecisionPoint],
     rng: np.random.Generator,
 ) -> Trial:
     """One fault corrected once, then looked at again in other circumstances, and at all earlier moments."""
@@ -92,8 +92,12 @@ def trial(
 
 
 def variants(
-    teacher: Teacher, fault: Moment, pool: Sequence[Moment], rng: np.random.Generator, n: int = 20
-) -> list[Moment]:
+    teacher: Teacher,
+    fault: DecisionPoint,
+    pool: Sequence[DecisionPoint],
+    rng: np.random.Generator,
+    n: int = 20,
+) -> list[DecisionPoint]:
     """The same fault in other circumstances: what the teacher does not go by is taken from other moments, the
     rest varies a little; only such at which she would clearly do the same."""
     right, found = teacher.ideal(fault.raw), []
@@ -107,5 +111,5 @@ def variants(
         if not shown.clear or shown.action != right.action:
             continue
         situation = replace_value(FOREST, named(raw), "doing", str(fault.situation["doing"]))
-        found.append(Moment(f"{fault.id}, variant {k}", situation, raw, fault.memory))
+        found.append(DecisionPoint(f"{fault.id}, variant {k}", situation, raw, fault.memory))
     return found[:n]

@@ -12,9 +12,17 @@ from itertools import groupby
 import numpy as np
 
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.learning.apprentice import Studied, confirmed, corrected, held, outranked, step_of, study
+from gaitwright.learning.apprentice import (
+    Studied,
+    confirmed,
+    corrected,
+    only_goes_on,
+    outranked,
+    step_of,
+    study,
+)
 from gaitwright.learning.courses import course
-from gaitwright.learning.critic import Moment
+from gaitwright.learning.critic import DecisionPoint
 from gaitwright.learning.exam import firm_share, is_right
 from gaitwright.learning.kinematic import moments_of
 from gaitwright.learning.teacher import ScriptedTeacher, Teacher
@@ -35,7 +43,7 @@ class Demonstration:
     """A stretch of a teacher's trip in which she uses one skill."""
 
     rule: str
-    moments: tuple[Moment, ...]
+    moments: tuple[DecisionPoint, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +96,7 @@ def demonstrations(
     return tuple(shown for row in found.values() for shown in row)
 
 
-def spread(moments: Sequence[Moment], most: int) -> tuple[Moment, ...]:
+def spread(moments: Sequence[DecisionPoint], most: int) -> tuple[DecisionPoint, ...]:
     """At most so many of them, from the first on, evenly."""
     places = np.unique(np.linspace(0, len(moments) - 1, most).round().astype(int))
     return tuple(moments[int(k)] for k in places)
@@ -105,13 +113,13 @@ def demonstrate(book: Rulebook, teacher: Teacher, shown: Sequence[Demonstration]
     return study(book, teacher, moments, passes)
 
 
-def correct(book: Rulebook, teacher: Teacher, moment: Moment) -> Studied:
+def correct(book: Rulebook, teacher: Teacher, moment: DecisionPoint) -> Studied:
     """The rulebook after the teacher looked at one moment: confirmed, or corrected once."""
     step, shown = step_of(book, moment), teacher.ideal(moment.raw)
     correction = teacher.judge(step.action, moment.raw)
     if correction is not None:
         return corrected(book, moment, correction)
-    if not shown.clear or step.action != shown.action or held(step):
+    if not shown.clear or step.action != shown.action or only_goes_on(step):
         return Studied(book)
     studied = confirmed(book, step)
     return studied.then(outranked(studied.book, teacher, moment))

@@ -38,7 +38,7 @@ class Ancestor:
     digest: str
 
 
-def settled(lesson: Lesson, lessons: int) -> Lesson:
+def number_lesson(lesson: Lesson, lessons: int) -> Lesson:
     """A lesson as a file keeps it: numbered, and without measurements that are not finite."""
     name = lesson.id or f"lesson {lessons + 1}"
     kept = Instance(name, lesson.kind, lesson.situation, lesson.raw).raw
@@ -56,13 +56,13 @@ def replayed(steps: Iterable[Step]) -> Rulebook:
         elif book is None or step.lesson is None:
             raise WrongUse(f"a history begins with a rulebook, and a step {step.how!r} has a lesson")
         else:
-            book, trouble = taken(book, step.how, step.lesson, trouble)
+            book, trouble = take_lesson(book, step.how, step.lesson, trouble)
     if book is None:
         raise WrongUse("a history has at least the step that began it")
     return book
 
 
-def taken(
+def take_lesson(
     book: Rulebook, how: How, lesson: Lesson, trouble: Inconsistency | None
 ) -> tuple[Rulebook, Inconsistency | None]:
     """The rulebook after one lesson, and the contradiction that it ended in."""

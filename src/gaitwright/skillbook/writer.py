@@ -14,7 +14,7 @@ from gaitwright.knowledge.rules import Rulebook
 from gaitwright.skillbook import rows
 from gaitwright.skillbook.book import Skillbook, about_of, book_of
 from gaitwright.skillbook.entries import encoded, event_entries, rulebook_entry, step_entry
-from gaitwright.skillbook.history import Step, settled
+from gaitwright.skillbook.history import Step, number_lesson
 from gaitwright.skillbook.schema import MAX_BYTES, connected, located, migrate, number, sentences, version_of
 
 PATIENCE = 2000
@@ -61,7 +61,7 @@ class Ledger:
             raise WrongUse("a step is mended right after one that ended in a contradiction")
         if how == "mended" and last.lesson is not None:
             lesson = replace(lesson, id=lesson.id or last.lesson.id)
-        lesson = settled(lesson, self.book.rulebook.lessons)
+        lesson = number_lesson(lesson, self.book.rulebook.lessons)
         return self._append(Step(how, lesson, None, note), learned.book)
 
     def edit(self, rulebook: Rulebook, note: str) -> Skillbook:

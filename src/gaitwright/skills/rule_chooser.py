@@ -55,7 +55,7 @@ class RuleChooser:
         if action is None or action.skill not in skill_names(self.robot.n):
             return self.fallen_back(route, sensed, now, ruling)
         kept = {**applied(action, memory), DOING: str(ruling.rule)}
-        call = carried_out(self.robot, action, route, sensed)
+        call = carry_out(self.robot, action, route, sensed)
         return replace(call, because=self.because(ruling), memory=kept)
 
     def ruling(self, situation: Situation, memory: Mapping[str, Fact]) -> Ruling:
@@ -75,8 +75,8 @@ class RuleChooser:
         """Why, as a sentence: the rule and how sure it is."""
         if ruling.kept:
             return f"rule {ruling.rule}: it goes on until {self.actions[str(ruling.rule)].until}"
-        told = "sure" if ruling.sure else "not seen just like this before"
-        return f"rule {ruling.rule}: {told}"
+        certainty = "sure" if ruling.sure else "not seen just like this before"
+        return f"rule {ruling.rule}: {certainty}"
 
     def fallen_back(self, route: Route, sensed: Sensed, now: SkillCall | None, ruling: Ruling) -> SkillCall:
         """What the plain rules say, and why they were asked."""
@@ -96,7 +96,7 @@ class RuleChooser:
         return {rule.name: rule.action for rule in self.book.rules}
 
 
-def carried_out(robot: Robot, action: Action, route: Route, sensed: Sensed) -> SkillCall:
+def carry_out(robot: Robot, action: Action, route: Route, sensed: Sensed) -> SkillCall:
     """An action on this robot and route: as fast as wished within its range, slower before the goal.
 
     The speeds of an action are those of a robot 0.29 m tall [m/s]; a larger one goes faster.

@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from gaitwright.knowledge.forest import Forest, Situation
-from gaitwright.knowledge.trees import Tree, interval_tree, tree
+from gaitwright.knowledge.trees import FeatureTree, interval_tree, tree
 from gaitwright.model.kinematics import leg_points_and_jacobian
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, dot, heading, roll_pitch_yaw, rotation, times_t, vec, wrap
@@ -133,7 +133,7 @@ def named(raw: Mapping[str, float], call: SkillCall | None = None) -> Situation:
     return Situation(FOREST.names, tuple(leaf_named(tree, raw, call) for tree in FOREST.trees))
 
 
-def leaf_named(tree: Tree, raw: Mapping[str, float], call: SkillCall | None) -> str:
+def leaf_named(tree: FeatureTree, raw: Mapping[str, float], call: SkillCall | None) -> str:
     """The leaf of one tree, by its own rule or by the interval that its number is in."""
     if tree.name in NAMED_BY:
         return NAMED_BY[tree.name](raw, call)
@@ -167,7 +167,7 @@ def measured(robot: Robot, route: Route, sensed: Sensed, call: SkillCall | None 
         "possible": braked(robot, route) / scale,
         "sway": sway(robot, sensed, scan),
         "obstacle": min(OUT_OF_SIGHT, scan.obstacle / unit),
-        "effort": effort(robot, sensed),
+        "effort": torque_utilisation(robot, sensed),
         "direction": math.degrees(float(wrap(way))),
         "familiar": float(scan.familiar),
         "turning": float(doing_of(call) == "turning"),
@@ -196,7 +196,7 @@ def sway(robot: Robot, sensed: Sensed, scan: Scan) -> float:
     return math.hypot(roll, rate / w, sideways / (w * robot.height))
 
 
-def effort(robot: Robot, sensed: Sensed) -> float:
+def torque_utilisation(robot: Robot, sensed: Sensed) -> float:
     """Largest share of a motor's torque that the loads on the feet ask for by themselves: |Jᵀ f| / τ_max."""
     up_b = times_t(rotation(sensed.orientation_wb), (0.0, 0.0, 1.0))
     most = 0.0

@@ -16,7 +16,7 @@ from gaitwright.bench.peers.rules_client import RulesPeer
 from gaitwright.bench.trial import robot_named
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.learning.apprentice import corrected, step_of
-from gaitwright.learning.critic import Moment
+from gaitwright.learning.critic import DecisionPoint
 from gaitwright.learning.exam import Trial, faults, held_out, right_share, trial
 from gaitwright.learning.school import Schooled, attend, demonstrate, demonstrations, keep
 from gaitwright.learning.teacher import ScriptedTeacher
@@ -83,7 +83,7 @@ def beside(session: Session, seeds: Sequence[int]) -> Iterator[Figure]:
     yield share(what, more, at_least(0.0), f"the best is {best}")
 
 
-def as_rows(teacher: ScriptedTeacher, shown: Sequence[Moment], asked: Sequence[Moment]) -> dict:
+def as_rows(teacher: ScriptedTeacher, shown: Sequence[DecisionPoint], asked: Sequence[DecisionPoint]) -> dict:
     """Situations as numbers, and the teacher's action in each as a word."""
     return {
         "shown": [row_of(moment) for moment in shown],
@@ -93,7 +93,7 @@ def as_rows(teacher: ScriptedTeacher, shown: Sequence[Moment], asked: Sequence[M
     }
 
 
-def row_of(moment: Moment) -> list[int]:
+def row_of(moment: DecisionPoint) -> list[int]:
     """A 1 for each value that the situation is below: with the groups of the trees, not only the leaves."""
     pairs = zip(FOREST.trees, moment.situation.values, strict=True)
     return [int(tree.is_below(str(leaf), value)) for tree, leaf in pairs for value in tree.values[1:]]
@@ -127,7 +127,7 @@ def corrections(session: Session, seeds: Sequence[int]) -> Iterator[Figure]:
     yield Figure("from correction to stored rule, slowest", slowest, "ms", at_most(100.0), len(took), note)
 
 
-def stored(book: Rulebook, teacher: ScriptedTeacher, fault: Moment) -> float:
+def stored(book: Rulebook, teacher: ScriptedTeacher, fault: DecisionPoint) -> float:
     """Time from a correction until the rule is durable in a skillbook [s]."""
     correction = teacher.judge(step_of(book, fault).action, fault.raw)
     assert correction is not None

@@ -8,7 +8,7 @@ from gaitwright.knowledge.mark_fitting import refit, tightened
 from gaitwright.knowledge.memory import Fact
 from gaitwright.knowledge.modifier import Lesson, audit
 from gaitwright.knowledge.rules import Choice, Instance, Marks, Rule, Rulebook
-from gaitwright.knowledge.trees import Tree
+from gaitwright.knowledge.trees import FeatureTree
 from gaitwright.knowledge.widen import marks_around
 
 
@@ -18,7 +18,7 @@ def differing(ours: Forest, theirs: Forest) -> tuple[str, ...]:
     return tuple(our.name for our, their in pairs if (our.leaves, our.bounds) != (their.leaves, their.bounds))
 
 
-def placed(forest: Forest, situation: Situation, raw: Mapping[str, Fact]) -> Situation | str:
+def restate_situation(forest: Forest, situation: Situation, raw: Mapping[str, Fact]) -> Situation | str:
     """The situation over another forest, or the tree that does not know its value there.
 
     A tree that it has no value in takes the measurement, where one was taken, and else stays open.
@@ -36,7 +36,7 @@ def restated(rule: Rule, forest: Forest) -> Rule | str:
     sides: list[list[Instance]] = [[], []]
     for side, instances in zip(sides, (rule.positives, rule.negatives), strict=True):
         for instance in instances:
-            situation = placed(forest, instance.situation, instance.raw)
+            situation = restate_situation(forest, instance.situation, instance.raw)
             if isinstance(situation, str):
                 return f"{instance.id} has a value in {situation} that is not known here"
             side.append(replace(instance, situation=situation))
@@ -56,7 +56,7 @@ def restated(rule: Rule, forest: Forest) -> Rule | str:
     return f"its values hold the wrong {', '.join(instance.id for instance in fitted)} too"
 
 
-def _mark(tree: Tree, stated: Rule) -> Marks:
+def _mark(tree: FeatureTree, stated: Rule) -> Marks:
     """The rule's marks in a tree; where it had none, around what its right situations measured there."""
     for marks in stated.marks:
         if marks.tree == tree.name and {marks.upper, marks.lower or marks.upper} <= tree.place.keys():
@@ -66,6 +66,6 @@ def _mark(tree: Tree, stated: Rule) -> Marks:
 
 def lesson_over(forest: Forest, lesson: Lesson) -> Lesson | str:
     """The lesson over another forest, or the tree that does not know its value."""
-    situation = placed(forest, lesson.situation, lesson.raw)
+    situation = restate_situation(forest, lesson.situation, lesson.raw)
     blame = lesson.blame if lesson.blame in forest.names else ""
     return situation if isinstance(situation, str) else replace(lesson, situation=situation, blame=blame)
