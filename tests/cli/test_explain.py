@@ -44,7 +44,7 @@ def taught() -> Rulebook:
     ):
         kind = "commission" if k == 3 else "omission"
         lesson = Lesson(kind, rule, situation, f"lap {k}", blame=blame, action=Action(rule))
-        book = (learn if k == 3 else teach)(book, lesson).book
+        book = (learn if k == 3 else teach)(book, lesson).rulebook
     return book
 
 
@@ -92,7 +92,7 @@ def test_a_book_without_rules_says_so(capsys, book):
 
 def test_a_rule_nobody_has_seen_right_does_not_fire(capsys, book):
     lesson = Lesson("commission", "hop", at(), action=Action("hop"))
-    Path(book).write_bytes(dumps(learn(BOOK, lesson).book))
+    Path(book).write_bytes(dumps(learn(BOOK, lesson).rulebook))
     assert "hop empty 0 1 does not fire yet: nobody has seen it right" in explained(capsys)
 
 

@@ -93,8 +93,8 @@ def test_a_book_of_fewer_trees_drives_and_is_taught_and_kept(tmp_path, monkeypat
         over(before, fewer)
         then = [moment_like(one.raw) for one in ROADS]
         studied = study(Rulebook(fewer), TEACHER, then)
-        path = Skillbook.new(studied.book, "go2", "old").save(tmp_path / "old.skills")
-        decided = decisions(studied.book, then)
+        path = Skillbook.new(studied.rulebook, "go2", "old").save(tmp_path / "old.skills")
+        decided = decisions(studied.rulebook, then)
     assert decisions(Skillbook.load(path).rulebook) == decided
     assert_drives_alike(Skillbook.load(path).rulebook, decided)
     assert_taught_further(path, decided, ("pace", "path"))
@@ -120,6 +120,7 @@ def moment_like(raw) -> DecisionPoint:
 def assert_drives_alike(rules: Rulebook, decided: list) -> None:
     """Whoever drives by the rules as they were stored does what they decided then."""
     chooser = RuleChooser(DOG, rules)
+    assert set(chooser.rulebook.forest.names) >= set(situation.FOREST.names)
     for one, rule in zip(ROADS, decided, strict=True):
         assert chooser.ruling(chooser.situation(one.raw, None), {}).rule == rule
 

@@ -41,11 +41,13 @@ def corrected(book: Skillbook, lesson: Lesson) -> Skillbook:
     for _ in range(10):
         learned = teach(book.rulebook, lesson)
         trouble = learned.trouble
-        book = stepped(book, Step("taught", lesson, None, trouble.sentence if trouble else ""), learned.book)
+        book = stepped(
+            book, Step("taught", lesson, None, trouble.sentence if trouble else ""), learned.rulebook
+        )
         if trouble is None:
             break
         mended = mend(book.rulebook, trouble, lesson.blame)
-        book = stepped(book, Step("mended", lesson, None, mended.sentence), mended.book)
+        book = stepped(book, Step("mended", lesson, None, mended.sentence), mended.rulebook)
         if mended.how == "none":
             break
     return book

@@ -51,7 +51,7 @@ def test_one_lesson_more_changes_few_lines(rng):
     book = taught_skillbook(7, 12)
     learned = teach(book.rulebook, random_lesson(rng, book.rulebook.forest))
     lesson = Lesson("positive", "x", random_lesson(rng, book.rulebook.forest).situation, id="new")
-    more = stepped(book, Step("taught", lesson, None, ""), learned.book)
+    more = stepped(book, Step("taught", lesson, None, ""), learned.rulebook)
     before, after = (export_text(b).splitlines() for b in (book, more))
     assert len(set(before) ^ set(after)) < 30 < len(before)
     assert export_text(replace(book, name="new name")).splitlines()[2:] == before[2:]
@@ -89,9 +89,9 @@ def test_features_analogies_and_a_changed_order_are_kept(tmp_path):
         learned = teach_in(ledger, wrong)
         assert learned.trouble is not None and learned.trouble.same
         proposal = propose_features(ledger.book.rulebook, learned.trouble)[0]
-        ledger.edit(accept(ledger.book.rulebook, proposal).book, "a feature was accepted")
+        ledger.edit(accept(ledger.book.rulebook, proposal).rulebook, "a feature was accepted")
         ledger.edit(
-            mirrored(ledger.book.rulebook, "walk", "back", lambda a: replace(a, skill="back"), {}).book,
+            mirrored(ledger.book.rulebook, "walk", "back", lambda a: replace(a, skill="back"), {}).rulebook,
             "an analogy",
         )
         swapped = replace(ledger.book.rulebook, rules=ledger.book.rulebook.rules[::-1], preferences=())

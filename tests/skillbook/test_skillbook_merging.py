@@ -184,11 +184,11 @@ def test_what_was_changed_by_hand_is_taken_over(base):
     back = mirrored(
         base.rulebook, "walk", "back", lambda a: replace(a, skill="back"), {"light": {"day": "night"}}
     )
-    theirs = edited(base.forked("b"), back.book)
+    theirs = edited(base.forked("b"), back.rulebook)
     merged = merge(ours, theirs)
     sound(merged)
     assert merged.book.rulebook["back"].proposed and not merged.conflicts
-    confirmed = edited(theirs, confirm(theirs.rulebook, "back", "seen").book)
+    confirmed = edited(theirs, confirm(theirs.rulebook, "back", "seen").rulebook)
     again = merge(merged.book, confirmed)
     sound(again)
     assert not again.book.rulebook["back"].proposed and not again.conflicts

@@ -40,7 +40,7 @@ def taught(*lessons: tuple[Action, object]) -> Rulebook:
         blame = {"climb": "road", "turn-in-place": "turn"}.get(action.skill, "")
         learned = teach(book, Lesson("omission", action.skill, at, blame=blame, action=action))
         assert learned.trouble is None
-        book = learned.book
+        book = learned.rulebook
     return book
 
 
@@ -103,7 +103,7 @@ def test_a_skill_that_a_robot_lacks_is_left_to_the_plain_rules():
     book = learn(
         Rulebook(FOREST),
         Lesson("omission", "run", situation(hexapod, AHEAD, six()), action=Action("run", 0.1, 2.0)),
-    ).book
+    ).rulebook
     call = RuleChooser(hexapod, book).choose(replace(AHEAD, speed=0.1), six())
     assert call.skill in ("walk", "trot") and "wants a skill it does not have" in call.because
 

@@ -41,7 +41,7 @@ def run(args: Namespace) -> int:
         return 130
     with working("the exam", worth_a_line=False):
         right = right_share(
-            schooled.book, ScriptedTeacher(), held_out(robot, ScriptedTeacher(), args.seed, EXAM)
+            schooled.rulebook, ScriptedTeacher(), held_out(robot, ScriptedTeacher(), args.seed, EXAM)
         )
     tell(schooled, offered, right, perf_counter() - began, args)
     return 0
@@ -82,13 +82,13 @@ def offer_analogies(ledger: Ledger) -> tuple[Learned, ...]:
     """Rules by analogy, put away as proposals: they fire once they are confirmed or seen right."""
     made = proposals(ledger.book.rulebook)
     for learned in made:
-        ledger.edit(learned.book, learned.events[0].why)
+        ledger.edit(learned.rulebook, learned.events[0].why)
     return made
 
 
 def tell(schooled: Schooled, offered: list[str], right: float, seconds: float, args: Namespace) -> None:
     """What came of it; `offered`: the rules proposed by analogy, in sentences."""
-    report, rules = schooled.report, schooled.book.rules
+    report, rules = schooled.report, schooled.rulebook.rules
     states = ", ".join(f"{rule.name} {status(rule)}" for rule in rules)
     numbers = {
         "book": args.out,

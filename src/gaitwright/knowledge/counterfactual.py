@@ -40,7 +40,7 @@ Options = tuple[tuple[int, int, int], ...]
 
 
 def counterfactual(
-    book: Rulebook,
+    rulebook: Rulebook,
     situation: Situation,
     to: str = "",
     keep: Collection[str] = (),
@@ -52,10 +52,10 @@ def counterfactual(
     `compiled` spares compiling a book that is asked often. Raises `WrongUse` for a rule or tree that does
     not exist.
     """
-    forest, table = book.forest, compiled or compile_book(book)
+    forest, table = rulebook.forest, compiled or compile_book(rulebook)
     for tree in keep:
         forest[tree]
-    now = consult(book, situation)
+    now = consult(rulebook, situation)
     if to and to not in table.names:
         raise unknown("rule", to, table.names)
     if to and now.rule == to:
@@ -68,7 +68,7 @@ def counterfactual(
         wanted = f"{to} fires" if to else "anything else is decided"
         return Counterfactual((), None, f"no change was found after which {wanted}{_kept_text(keep)}")
     changed = forest.at(found)
-    decision = consult(book, changed)
+    decision = consult(rulebook, changed)
     assert decision.rule == (to or decision.rule) and decision.rule != now.rule, (
         "the search misjudged a change"
     )

@@ -33,44 +33,44 @@ class Proposal:
     trouble: Inconsistency
 
 
-def propose_features(book: Rulebook, trouble: Inconsistency) -> tuple[Proposal, ...]:
+def propose_features(rulebook: Rulebook, trouble: Inconsistency) -> tuple[Proposal, ...]:
     """Features made from what was measured besides the situation, the best first; none where nothing differs.
 
     Only a measurement that tells apart all that were right and wrong in the same situation will do. Those
     with fewer bounds come first, then the clearer ones.
     """
-    rule = with_instance(book[trouble.rule], trouble.instance)
+    rule = with_instance(rulebook[trouble.rule], trouble.instance)
     wrong_at = {negative.situation for negative in rule.negatives}
     rights = [right for right in rule.positives if right.situation in wrong_at]
     right_at = {right.situation for right in rights}
     wrongs = [wrong for wrong in rule.negatives if wrong.situation in right_at]
-    everyone = [instance for other in book.rules for instance in (*other.positives, *other.negatives)]
+    everyone = [instance for other in rulebook.rules for instance in (*other.positives, *other.negatives)]
     proposals = []
     for source in sorted({name for right in rights for name in right.raw}):
         known = [instance.raw[source] for instance in (*everyone, trouble.instance) if source in instance.raw]
         right_values = [right.raw[source] for right in rights if source in right.raw]
         wrong_values = [wrong.raw[source] for wrong in wrongs if source in wrong.raw]
         if len(wrong_values) == len(wrongs):
-            proposals += _proposal(book.forest, source, right_values, wrong_values, known, trouble)
+            proposals += _proposal(rulebook.forest, source, right_values, wrong_values, known, trouble)
     return tuple(sorted(proposals, key=lambda proposal: (len(proposal.tree.bounds), -proposal.clearness)))
 
 
-def accept(book: Rulebook, proposal: Proposal) -> Learned:
+def accept(rulebook: Rulebook, proposal: Proposal) -> Learned:
     """The rulebook with the new tree, every instance placed in it by its measurement, and the lesson learned.
 
     An instance without that measurement keeps no value there: a right one binds no mark of the new tree, a
     wrong one cannot be kept out by it. Raises `WrongUse` for a feature that the rulebook has.
     """
     added, trouble = proposal.tree, proposal.trouble
-    if added.name in book.forest.names:
+    if added.name in rulebook.forest.names:
         raise WrongUse(f"the rules know {added.name} already: it cannot be a new feature of theirs")
-    grown = widened(book, (added,))
+    grown = widened(rulebook, (added,))
     instance = seen_in(grown.forest, trouble.instance)
     born = Event(instance.id, trouble.rule, added.name, "tree", "", added.name, proposal.sentence)
     rule = grown[trouble.rule]
     fitted = fit_all(grown.forest, rule, instance, added.name)
     if not isinstance(fitted, Rule):
-        return Learned(book, (), contradiction(grown, rule, instance, fitted))
+        return Learned(rulebook, (), contradiction(grown, rule, instance, fitted))
     events = (born, *moves(grown.forest, rule, fitted, instance))
     proposed = rule.proposed and not instance.speaks_for
     return closed(grown, replace(fitted, quiet=0, proposed=proposed), events)

@@ -10,7 +10,7 @@ from gaitwright.knowledge.rules import Instance, Marks, Rule, Rulebook
 from gaitwright.knowledge.trees import FeatureTree
 
 
-def widened(rules: Rulebook, trees: Sequence[FeatureTree]) -> Rulebook:
+def widened(rulebook: Rulebook, trees: Sequence[FeatureTree]) -> Rulebook:
     """The rulebook with those of the trees that it does not have, behind its own; itself where it has all.
 
     Every rule is indifferent to a new tree: its upper mark is the root, so whatever fired fires at any value
@@ -18,15 +18,16 @@ def widened(rules: Rulebook, trees: Sequence[FeatureTree]) -> Rulebook:
     where that does not tell; so does the lower mark, and a decision is grey there until the rule was seen
     right at such a value.
     """
-    new = tuple(tree for tree in trees if tree.name not in rules.forest.names)
+    new = tuple(tree for tree in trees if tree.name not in rulebook.forest.names)
     if not new:
-        return rules
-    forest = Forest((*rules.forest.trees, *new))
+        return rulebook
+    forest = Forest((*rulebook.forest.trees, *new))
     wishes = tuple(
-        replace(wish, situation=forest.read(dict(wish.situation.items()), {})) for wish in rules.preferences
+        replace(wish, situation=forest.read(dict(wish.situation.items()), {}))
+        for wish in rulebook.preferences
     )
-    wider = tuple(_over(forest, rule) for rule in rules.rules)
-    return replace(rules, forest=forest, rules=wider, preferences=wishes)
+    wider = tuple(_over(forest, rule) for rule in rulebook.rules)
+    return replace(rulebook, forest=forest, rules=wider, preferences=wishes)
 
 
 def marks_around(tree: FeatureTree, positives: Sequence[Instance]) -> Marks:

@@ -32,19 +32,19 @@ def held_out(robot: Robot, teacher: Teacher, seed: int, n: int = 200) -> tuple[D
     return tuple(found[:n])
 
 
-def right_share(book: Rulebook, teacher: Teacher, moments: Sequence[DecisionPoint]) -> float:
+def right_share(rulebook: Rulebook, teacher: Teacher, moments: Sequence[DecisionPoint]) -> float:
     """Share of the moments at which the rules do what the teacher would."""
-    return float(np.mean([is_right(book, teacher, moment) for moment in moments]))
+    return float(np.mean([is_right(rulebook, teacher, moment) for moment in moments]))
 
 
-def is_right(book: Rulebook, teacher: Teacher, moment: DecisionPoint) -> bool:
+def is_right(rulebook: Rulebook, teacher: Teacher, moment: DecisionPoint) -> bool:
     """Whether the rules do what the teacher would."""
-    return step_of(book, moment).action == teacher.ideal(moment.raw).action
+    return step_of(rulebook, moment).action == teacher.ideal(moment.raw).action
 
 
-def firm_share(book: Rulebook) -> float:
+def firm_share(rulebook: Rulebook) -> float:
     """Share of the trees, over all rules that may fire, in which upper and lower mark meet."""
-    met = [marks.upper == marks.lower for rule in book.rules if rule.may_fire for marks in rule.marks]
+    met = [marks.upper == marks.lower for rule in rulebook.rules if rule.may_fire for marks in rule.marks]
     return float(np.mean(met)) if met else 0.0
 
 
@@ -63,25 +63,25 @@ class Trial:
     """Of these, wrong afterwards."""
 
 
-def faults(book: Rulebook, teacher: Teacher, moments: Sequence[DecisionPoint]) -> list[DecisionPoint]:
+def faults(rulebook: Rulebook, teacher: Teacher, moments: Sequence[DecisionPoint]) -> list[DecisionPoint]:
     """The moments at which a teacher would correct the rules."""
-    return [m for m in moments if teacher.judge(step_of(book, m).action, m.raw) is not None]
+    return [m for m in moments if teacher.judge(step_of(rulebook, m).action, m.raw) is not None]
 
 
 def trial(
-    book: Rulebook,
+    rulebook: Rulebook,
     teacher: Teacher,
     fault: DecisionPoint,
     pool: Sequence[DecisionPoint],
     rng: np.random.Generator,
 ) -> Trial:
     """One fault corrected once, then looked at again in other circumstances, and at all earlier moments."""
-    wrong = step_of(book, fault).action
+    wrong = step_of(rulebook, fault).action
     correction = teacher.judge(wrong, fault.raw)
     assert correction is not None, "a fault is what the teacher corrects"
-    unseen = [v for v in variants(teacher, fault, pool, rng) if step_of(book, v).action == wrong]
-    earlier = [moment for moment in pool if is_right(book, teacher, moment)]
-    after = corrected(book, fault, correction).book
+    unseen = [v for v in variants(teacher, fault, pool, rng) if step_of(rulebook, v).action == wrong]
+    earlier = [moment for moment in pool if is_right(rulebook, teacher, moment)]
+    after = corrected(rulebook, fault, correction).rulebook
     return Trial(
         fault,
         len(unseen),

@@ -69,7 +69,7 @@ class SchoolReport:
 class Schooled:
     """A rulebook and how it came to be."""
 
-    book: Rulebook
+    rulebook: Rulebook
     report: SchoolReport
 
 
@@ -102,7 +102,9 @@ def spread(moments: Sequence[DecisionPoint], most: int) -> tuple[DecisionPoint, 
     return tuple(moments[int(k)] for k in places)
 
 
-def demonstrate(book: Rulebook, teacher: Teacher, shown: Sequence[Demonstration], passes: int = 3) -> Studied:
+def demonstrate(
+    rulebook: Rulebook, teacher: Teacher, shown: Sequence[Demonstration], passes: int = 3
+) -> Studied:
     """The rulebook after demonstrations: one of each skill in turn, then the next of each."""
     order: dict[str, int] = {}
     turns = []
@@ -110,19 +112,19 @@ def demonstrate(book: Rulebook, teacher: Teacher, shown: Sequence[Demonstration]
         order[one.rule] = order.get(one.rule, -1) + 1
         turns.append((order[one.rule], one))
     moments = [moment for _, one in sorted(turns, key=lambda turn: turn[0]) for moment in one.moments]
-    return study(book, teacher, moments, passes)
+    return study(rulebook, teacher, moments, passes)
 
 
-def correct(book: Rulebook, teacher: Teacher, moment: DecisionPoint) -> Studied:
+def correct(rulebook: Rulebook, teacher: Teacher, moment: DecisionPoint) -> Studied:
     """The rulebook after the teacher looked at one moment: confirmed, or corrected once."""
-    step, shown = step_of(book, moment), teacher.ideal(moment.raw)
+    step, shown = step_of(rulebook, moment), teacher.ideal(moment.raw)
     correction = teacher.judge(step.action, moment.raw)
     if correction is not None:
-        return corrected(book, moment, correction)
+        return corrected(rulebook, moment, correction)
     if not shown.clear or step.action != shown.action or only_goes_on(step):
-        return Studied(book)
-    studied = confirmed(book, step)
-    return studied.then(outranked(studied.book, teacher, moment))
+        return Studied(rulebook)
+    studied = confirmed(rulebook, step)
+    return studied.then(outranked(studied.rulebook, teacher, moment))
 
 
 def attend(  # noqa: PLR0913 - a whole school; every setting has its default
@@ -154,7 +156,7 @@ def attend(  # noqa: PLR0913 - a whole school; every setting has its default
     interventions = []
     for k in range(trips_watched):
         number = (SCHOOL * 1000 + seed) * 1_000_000 + 500_000 + k
-        watched = watch(studied.book, robot, teacher, number, times, per_skill)
+        watched = watch(studied.rulebook, robot, teacher, number, times, per_skill)
         interventions.append(watched.corrections)
         studied = studied.then(watched)
         keep(watched)
@@ -166,16 +168,16 @@ def attend(  # noqa: PLR0913 - a whole school; every setting has its default
         tuple(interventions),
         studied.lessons,
         len(studied.open),
-        firm_share(studied.book),
+        firm_share(studied.rulebook),
     )
-    return Schooled(studied.book, report)
+    return Schooled(studied.rulebook, report)
 
 
 def keep(ledger: Ledger, studied: Studied) -> None:
     """Puts every step of what was studied away in a skillbook, each durable before the next."""
     for step in studied.steps:
         if step.how == "edited":
-            ledger.edit(step.result.book, "a new feature, named by the teacher")
+            ledger.edit(step.result.rulebook, "a new feature, named by the teacher")
         else:
             ledger.record(step.lesson, step.result, step.how)
 
@@ -192,7 +194,7 @@ def catch_up(ledger: Ledger) -> Rulebook:
 
 
 def watch(
-    book: Rulebook, robot: Robot, teacher: Teacher, number: int, times: Counter[str], per_skill: int
+    rulebook: Rulebook, robot: Robot, teacher: Teacher, number: int, times: Counter[str], per_skill: int
 ) -> Studied:
     """One trip: at each moment the rules choose; what is right is confirmed, what is wrong corrected once.
 
@@ -200,12 +202,12 @@ def watch(
     often she showed each skill; beyond `per_skill` she lets a mistake pass.
     """
     rng = np.random.default_rng([number, 7])
-    studied = Studied(book)
+    studied = Studied(rulebook)
     for moment in moments_of(course(robot, number), teacher_drives(robot, teacher), rng):
         rule = teacher.ideal(moment.raw).rule
-        if times[rule] >= per_skill and not is_right(studied.book, teacher, moment):
+        if times[rule] >= per_skill and not is_right(studied.rulebook, teacher, moment):
             continue
-        taught = correct(studied.book, teacher, moment)
+        taught = correct(studied.rulebook, teacher, moment)
         times[rule] += taught.corrections
         studied = studied.then(taught)
     return studied

@@ -62,7 +62,7 @@ class Ledger:
         if how == "mended" and last.lesson is not None:
             lesson = replace(lesson, id=lesson.id or last.lesson.id)
         lesson = number_lesson(lesson, self.book.rulebook.lessons)
-        return self._append(Step(how, lesson, None, note), learned.book)
+        return self._append(Step(how, lesson, None, note), learned.rulebook)
 
     def edit(self, rulebook: Rulebook, note: str) -> Skillbook:
         """Stores a rulebook that was changed in another way than by a lesson, and says which."""

@@ -37,14 +37,14 @@ class RuleChooser:
     """Chooses the skills of one robot by a rulebook; where no rule fires, by the plain rules."""
 
     robot: Robot
-    book: Rulebook
+    rulebook: Rulebook
 
     def __post_init__(self) -> None:
         """Brings an older rulebook up to date. Raises `WrongUse` for one over other trees, or an
         until-condition that asks for none."""
-        object.__setattr__(self, "book", up_to_date(self.book))
-        for rule in self.book.rules:
-            check_until(self.book.forest, rule.action)
+        object.__setattr__(self, "rulebook", up_to_date(self.rulebook))
+        for rule in self.rulebook.rules:
+            check_until(self.rulebook.forest, rule.action)
 
     def choose(self, route: Route, sensed: Sensed, now: SkillCall | None = None) -> SkillCall:
         """The skill for what lies ahead; `now` is the one in use."""
@@ -69,7 +69,7 @@ class RuleChooser:
 
     def situation(self, raw: Mapping[str, float], now: SkillCall | None) -> Situation:
         """The situation in the rulebook's own trees: those of today and those it grew since."""
-        return in_trees_of(self.book, named(raw, now), raw)
+        return in_trees_of(self.rulebook, named(raw, now), raw)
 
     def because(self, ruling: Ruling) -> str:
         """Why, as a sentence: the rule and how sure it is."""
@@ -89,11 +89,11 @@ class RuleChooser:
 
     @cached_property
     def compiled(self) -> Compiled:
-        return compile_book(self.book)
+        return compile_book(self.rulebook)
 
     @cached_property
     def actions(self) -> dict[str, Action]:
-        return {rule.name: rule.action for rule in self.book.rules}
+        return {rule.name: rule.action for rule in self.rulebook.rules}
 
 
 def carry_out(robot: Robot, action: Action, route: Route, sensed: Sensed) -> SkillCall:

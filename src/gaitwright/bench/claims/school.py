@@ -46,7 +46,7 @@ def measure(session: Session) -> Iterator[Figure]:
     for seed in seeds:
         session.voice.say(f"school {seed}")
         whole.append(attend(robot, teacher, seed, PER_SKILL, 20 if session.quick else TRIPS))
-        right.append(right_share(whole[-1].book, teacher, held_out(robot, teacher, seed, HELD_OUT)))
+        right.append(right_share(whole[-1].rulebook, teacher, held_out(robot, teacher, seed, HELD_OUT)))
     yield share(f"go2's rules: right on {HELD_OUT} held-out situations", right, at_least(95.0))
     yield share("go2's rules: trees that are firm", [s.report.firm for s in whole], at_least(80.0))
     yield from beside(session, seeds)
@@ -65,7 +65,7 @@ def beside(session: Session, seeds: Sequence[int]) -> Iterator[Figure]:
     robot, teacher, ours, problem = robot_named("go2"), ScriptedTeacher(), [], []
     for seed in seeds:
         shown = demonstrations(robot, teacher, seed, PER_SKILL)
-        book = demonstrate(Rulebook(FOREST), teacher, shown).book
+        book = demonstrate(Rulebook(FOREST), teacher, shown).rulebook
         asked = held_out(robot, teacher, seed, HELD_OUT)
         ours.append(right_share(book, teacher, asked))
         problem.append(as_rows(teacher, [m for one in shown for m in one.moments], asked))
@@ -107,7 +107,7 @@ def corrections(session: Session, seeds: Sequence[int]) -> Iterator[Figure]:
     took: list[float] = []
     for seed in seeds:
         session.voice.say(f"corrections of pupil {seed}")
-        book = attend(robot, teacher, seed, PER_SKILL, HALF).book
+        book = attend(robot, teacher, seed, PER_SKILL, HALF).rulebook
         pool = held_out(robot, teacher, seed + 5000, HELD_OUT)
         rng = np.random.default_rng([seed, 3])
         for fault in faults(book, teacher, held_out(robot, teacher, seed + 9000, 4 * HELD_OUT))[:FAULTS]:

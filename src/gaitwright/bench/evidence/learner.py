@@ -64,8 +64,8 @@ def taught(book: Skillbook, lesson: Lesson) -> Skillbook:
     stated = number_lesson(lesson, before.lessons)
     learned = teach(before, stated)
     note = learned.trouble.sentence if learned.trouble else ""
-    step = Step("taught", stated, None, note, learned.book.events[len(before.events) :])
-    return replace(book, rulebook=learned.book, steps=(*book.steps, step))
+    step = Step("taught", stated, None, note, learned.rulebook.events[len(before.events) :])
+    return replace(book, rulebook=learned.rulebook, steps=(*book.steps, step))
 
 
 if __name__ == "__main__":

@@ -141,13 +141,13 @@ def taught(book: Rulebook, lesson: Lesson) -> Rulebook:
     """The rulebook after a lesson, mended wherever it contradicts an earlier one."""
     for _ in range(REPAIRS):
         learned = teach(book, lesson)
-        book = learned.book
+        book = learned.rulebook
         if learned.trouble is None:
             return book
         mended = mend(book, learned.trouble, lesson.blame)
         if mended.how == "none":
             return book
-        book = mended.book
+        book = mended.rulebook
     return book
 
 

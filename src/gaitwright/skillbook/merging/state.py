@@ -96,11 +96,11 @@ class Joining:
         for _ in range(TRIES):
             learned = (learn if how == "learned" else teach)(self.rulebook, lesson)
             trouble = learned.trouble
-            self.step(Step(how, lesson, None, trouble.sentence if trouble else ""), learned.book)
+            self.step(Step(how, lesson, None, trouble.sentence if trouble else ""), learned.rulebook)
             if trouble is None:
                 return
             mended = mend(self.rulebook, trouble, lesson.blame)
-            self.step(Step("mended", lesson, None, mended.sentence), mended.book)
+            self.step(Step("mended", lesson, None, mended.sentence), mended.rulebook)
             if mended.how == "none":
                 break
             if how == "learned":  # what is mended is learned
@@ -109,15 +109,15 @@ class Joining:
             self.report(self._contradicted(lesson, trouble))
             self.given_up.add(lesson.id)
 
-    def edit(self, book: Rulebook, note: str, events: tuple[Event, ...] = ()) -> None:
+    def edit(self, rulebook: Rulebook, note: str, events: tuple[Event, ...] = ()) -> None:
         """One more step that holds a whole rulebook, with events that the rulebook does not have yet."""
-        full = replace(book, events=(*book.events, *events))
+        full = replace(rulebook, events=(*rulebook.events, *events))
         self.step(Step("edited", None, replace(full, events=()), note), full)
 
-    def step(self, step: Step, book: Rulebook) -> None:
-        events = book.events[len(self.rulebook.events) :]
+    def step(self, step: Step, rulebook: Rulebook) -> None:
+        events = rulebook.events[len(self.rulebook.events) :]
         self.steps.append(replace(step, events=events))
-        self.rulebook = book
+        self.rulebook = rulebook
 
     def sides(self, ids: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Ids of lessons: ours, and theirs."""
@@ -157,9 +157,9 @@ class Joining:
         return name
 
 
-def action_of(book: Rulebook, lesson: Lesson) -> Action | None:
+def action_of(rulebook: Rulebook, lesson: Lesson) -> Action | None:
     """What a lesson's rule does: as the book has it, or as the lesson says."""
-    return next((rule.action for rule in book.rules if rule.name == lesson.rule), lesson.action)
+    return next((rule.action for rule in rulebook.rules if rule.name == lesson.rule), lesson.action)
 
 
 def apart(situation: Situation, others: Sequence[Situation]) -> tuple[str, ...]:
