@@ -38,7 +38,7 @@ def exam():
 
 
 def test_a_short_school_makes_rules_that_are_mostly_right_where_nobody_taught_them():
-    book, report = schooled().book, schooled().report
+    book, report = schooled().rulebook, schooled().report
     assert right_share(book, TEACHER, exam()) > 0.7
     assert not audit(book) and report.trips == 2 and len(report.interventions) == 2
     assert max(report.demonstrations.values()) <= 5
@@ -49,7 +49,7 @@ def test_untaught_it_knows_nothing_and_demonstrations_alone_teach_most():
     shown = first_shown()
     assert right_share(Rulebook(FOREST), TEACHER, exam()) == 0.0
     studied = demonstrate(Rulebook(FOREST), TEACHER, shown)
-    assert right_share(studied.book, TEACHER, exam()) > 0.4
+    assert right_share(studied.rulebook, TEACHER, exam()) > 0.4
     for one in shown:
         for moment in one.moments:
             if TEACHER.ideal(moment.raw).clear:
@@ -59,17 +59,17 @@ def test_untaught_it_knows_nothing_and_demonstrations_alone_teach_most():
 def test_the_same_seed_is_the_same_school_and_another_is_not():
     one, again, other = (next(trips(DOG, TEACHER, seed)) for seed in (4, 4, 5))
     assert one == again and one != other
-    books = [study(Rulebook(FOREST), TEACHER, one).book for _ in range(2)]
+    books = [study(Rulebook(FOREST), TEACHER, one).rulebook for _ in range(2)]
     assert books[0] == books[1]
 
 
 def test_exams_are_not_lessons():
-    lessons = {event.instance for event in schooled().book.events}
+    lessons = {event.instance for event in schooled().rulebook.events}
     assert not lessons & {moment.id for moment in exam()}
 
 
 def test_a_trial_counts_what_a_correction_mends_and_breaks():
-    book = demonstrate(Rulebook(FOREST), TEACHER, first_shown()).book
+    book = demonstrate(Rulebook(FOREST), TEACHER, first_shown()).rulebook
     wrong = faults(book, TEACHER, exam())
     found = trial(book, TEACHER, wrong[0], exam(), np.random.default_rng(1))
     assert 0 < found.mended <= found.variants and 0 <= found.broken <= found.earlier
@@ -82,7 +82,7 @@ def test_a_trial_counts_what_a_correction_mends_and_breaks():
 def test_what_was_learned_without_physics_drives_a_robot_with_it():
     """Half a second in full physics: the rules choose, the numerical controller drives."""
     scene = load_scene("stairs:0.05")
-    brain, plant = Brain.of(DOG, scene, rulebook=schooled().book), MujocoPlant(DOG, scene)
+    brain, plant = Brain.of(DOG, scene, rulebook=schooled().rulebook), MujocoPlant(DOG, scene)
     sensed = plant.reset(0)
     mind = brain.begin(Mission(((6.0, 0.0),), 0.4, "hybrid"), sensed)
     laps = []

@@ -3,7 +3,7 @@
 from argparse import Namespace
 
 from gaitwright.cli import trips
-from gaitwright.cli.books import rulebook_of
+from gaitwright.cli.book_files import rulebook_of
 from gaitwright.errors import WrongUse
 from gaitwright.model.robot import Robot
 from gaitwright.signals import Mission

@@ -8,7 +8,7 @@ from gaitwright.record.metrics import attitude
 from gaitwright.record.moment import call_at, route_at, sensed_at
 from gaitwright.record.recording import Recording, load
 from gaitwright.skills.library import LIBRARY, OTHER_NAMES
-from gaitwright.skills.situation import situation
+from gaitwright.skills.situation import measured, named
 
 
 def recorded_facts(path: str, at: float | None) -> tuple[float, Memory]:
@@ -48,5 +48,6 @@ def situation_at(recording: Recording, tick: int) -> dict[str, str]:
     before = call_at(recording, max(0, tick - 1))  # what it had been doing when it chose
     known = before.skill in LIBRARY or before.skill in OTHER_NAMES
     sensed = sensed_at(recording, tick)
-    leaves = situation(recording.robot, route, sensed, before if known else None)
+    call = before if known else None
+    leaves = named(measured(recording.robot, route, sensed, call), call)
     return {tree: leaf for tree, leaf in leaves.items() if leaf is not None}

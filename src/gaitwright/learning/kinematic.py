@@ -13,7 +13,7 @@ import numpy as np
 
 from gaitwright.ground.scene import Scene
 from gaitwright.knowledge.memory import remembered
-from gaitwright.learning.critic import Moment
+from gaitwright.learning.critic import DecisionPoint
 from gaitwright.model.kinematics import angles
 from gaitwright.model.robot import Robot
 from gaitwright.navigation.navigator import Navigator, Travelled
@@ -46,7 +46,7 @@ class Course:
     name: str
 
 
-def moments_of(course: Course, driver: Driver, rng: np.random.Generator) -> list[Moment]:
+def moments_of(course: Course, driver: Driver, rng: np.random.Generator) -> list[DecisionPoint]:
     """The moments of one trip, driven by `driver`."""
     body = Body(course, rng)
     sensed = body.sensed(0.0, None)
@@ -59,7 +59,7 @@ def moments_of(course: Course, driver: Driver, rng: np.random.Generator) -> list
         route = met(course, route, rng)
         raw = measured(course.robot, route, sensed, now)
         memory = remembered(now.memory if now else {})
-        moments.append(Moment(f"{course.name}, moment {k + 1}", named(raw, now), raw, memory))
+        moments.append(DecisionPoint(f"{course.name}, moment {k + 1}", named(raw, now), raw, memory))
         now = driver(route, sensed, now)
         if route.arrived or not route.path:
             break

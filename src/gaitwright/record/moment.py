@@ -46,7 +46,6 @@ def route_at(r: Recording, tick: int) -> Route | None:
         path=((x, y),) * int(points),
         remaining=number(r, "route_remaining", tick),
         speed=None if np.isnan(speed) else speed,
-        driver=r.drivers[int(number(r, "driver", tick))],
         arrived=bool(number(r, "route_arrived", tick)),
         ahead=scan_at(r, tick),
     )

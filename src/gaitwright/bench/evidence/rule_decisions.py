@@ -19,7 +19,7 @@ from gaitwright.knowledge.explain import forest_text, history, why, why_not
 from gaitwright.knowledge.forest import Forest, Situation, replace_value
 from gaitwright.knowledge.memory import Fact, Memory
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.knowledge.trees import Tree
+from gaitwright.knowledge.trees import FeatureTree
 
 SITUATIONS, QUICK_SITUATIONS = 1000, 200
 ROUNDS, QUICK_ROUNDS = 40, 5
@@ -84,7 +84,7 @@ def timed(work: Asked, clips: RulesPeer) -> dict[str, float]:
     return found | ({"called": told["called_us"], "inside": told["inside_us"]} if told else {})
 
 
-def built(compiled: Compiled, intervals: Sequence[Tree], memory: Memory) -> tuple[str | None, bool]:
+def built(compiled: Compiled, intervals: Sequence[FeatureTree], memory: Memory) -> tuple[str | None, bool]:
     """A decision from working memory: numbers become leaves of their trees, then it is decided."""
     values: dict = dict(memory)
     for tree in intervals:
