@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Bool, Float
 
-from gaitwright.model.kinematics import HINGES, feet, per_leg
-from gaitwright.model.robot import Robot
+from gaitwright.model.kinematics import HINGES, all_angles, feet, per_leg
+from gaitwright.model.robot import Robot, unpacked
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import add, times, times_t, turn_x, turn_y, vec
 
@@ -166,6 +166,24 @@ def all_joint_accelerations(model, q, qd, acceleration):
         qdd, regular[leg] = leg_accelerations(q[leg], qd[leg], model.offset[leg], model.sign[leg], a)
         out[leg, 0], out[leg, 1], out[leg, 2] = qdd
     return out, regular
+
+
+@kernel
+def joints_of(packed, feet_b, velocity_b, acceleration_b):
+    """Joint angles, rates, accelerations and reach codes for feet that move so relative to the base.
+
+    Of many moments: `(moments, legs, 3)`, base axes; the codes `(moments, legs)`.
+    """
+    model = unpacked(packed)
+    q, qd, qdd = np.empty(feet_b.shape), np.empty(feet_b.shape), np.empty(feet_b.shape)
+    codes = np.empty(feet_b.shape[:2], dtype=np.int64)
+    for i in range(feet_b.shape[0]):
+        q[i], codes[i] = all_angles(
+            model.hip, model.leg_frame, model.offset, model.sign, model.branch, feet_b[i]
+        )
+        qd[i], _ = all_joint_rates(model, q[i], velocity_b[i])
+        qdd[i], _ = all_joint_accelerations(model, q[i], qd[i], acceleration_b[i])
+    return q, qd, qdd, codes
 
 
 # --- for people: feet and joints relative to the base ------------------------------------------------

@@ -1,7 +1,7 @@
 """A climb as steps, one foot at a time, and the motion they make: body, feet and joints over time.
 
 A step has two parts. First all feet stand and the body shifts; then it keeps still and one foot swings: up,
-over, down. Body and foot move by `swing.smooth`, so that they rest at either end.
+over, down. Body and foot move along `eased`, so that they rest at either end.
 """
 
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from gaitwright.gait.desired_cycle import joints_of
+from gaitwright.model.leg_motion import joints_of
 from gaitwright.model.robot import Robot
 
 SHIFT = 0.4
@@ -89,7 +89,7 @@ def feet_motion(
 
 
 def eased(x: Float[np.ndarray, "n"], start: float, end: float) -> Float[np.ndarray, "n"]:
-    """`swing.smooth` from 0 at `start` to 1 at `end`, constant outside."""
+    """10s³ − 15s⁴ + 6s⁵ from 0 at `start` to 1 at `end`, constant outside: at rest at both."""
     s = np.clip((x - start) / (end - start), 0.0, 1.0)
     return s**3 * (10.0 + s * (6.0 * s - 15.0))
 
