@@ -11,6 +11,7 @@ import pytest
 from gaitwright.bench.evidence.oracles import hinge_model, pinocchio
 from gaitwright.description.load import load_robot
 from gaitwright.ground.scene import load_scene
+from gaitwright.model.kinematics import reached_branches, to_leg
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, rotation
 from gaitwright.plant.mujoco.world import Placed, build_world
@@ -57,6 +58,16 @@ def any_state(robot: Robot, rng: np.random.Generator) -> State:
         three[4],
         4.0 * joints[1],
     )
+
+
+def branches(robot: Robot, leg: str, foot_b: np.ndarray) -> dict[tuple[int, int], np.ndarray]:
+    """Joint angles [rad] of each branch (sg, kn) that brings the foot of `leg` to `foot_b`, base frame [m].
+
+    Four far inside the reach, none outside; at a singular pose two are the same. Joint limits are not asked.
+    """
+    i = robot.legs.index(leg)
+    point = to_leg(robot.leg_frame[i], robot.hip[i], foot_b)
+    return reached_branches(point, robot.offset[i], float(robot.sign[i]))
 
 
 def unlike(robot: Robot, rng: np.random.Generator) -> Robot:

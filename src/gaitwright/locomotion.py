@@ -13,6 +13,7 @@ from gaitwright.control.programmed import ProgrammedController
 from gaitwright.errors import unknown
 from gaitwright.gait.coordinator import Coordinator
 from gaitwright.gait.desired_cycle import Manner, desired_cycle
+from gaitwright.gait.leg_cycles.leg_cycle import LegCycle
 from gaitwright.ground.scene import Scene
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.model.robot import Robot
@@ -46,6 +47,8 @@ class Programmed:
     """Driver `programmed`: every call plays the joint angles of its own undisturbed gait."""
 
     robot: Robot
+    cycles: dict[str, LegCycle] = field(default_factory=dict)
+    """Leg cycles by skill, in place of those that come along."""
     known: dict[tuple[Gait, tuple[float, float], float], ProgrammedController] = field(
         default_factory=dict, init=False, repr=False, compare=False
     )
@@ -69,7 +72,7 @@ class Programmed:
         if motion not in self.known:
             if len(self.known) == MOST_PROGRAMMES:
                 self.known.clear()
-            cycle = desired_cycle(self.robot, *motion, Manner(sways=True))
+            cycle = desired_cycle(self.robot, *motion, Manner(cycle=self.cycles.get(gait.name), sways=True))
             self.known[motion] = ProgrammedController(self.robot, cycle.q, cycle.qd, cycle.stance)
         return self.known[motion]
 
@@ -124,6 +127,15 @@ class Brain:
         if driver not in self.controllers:
             raise unknown("driver", driver, self.controllers)
         return self.controllers[driver]
+
+    def with_cycle(self, skill: str, cycle: LegCycle) -> "Brain":
+        """The same brain with feet that follow a leg cycle in a skill, whoever computes the torques."""
+        assert isinstance(self.coordinator, Coordinator), "a planned climb has no leg cycles"
+        coordinator = replace(self.coordinator, cycles={**self.coordinator.cycles, skill: cycle})
+        programmed = Programmed(self.robot, dict(coordinator.cycles))
+        return replace(
+            self, coordinator=coordinator, controllers={**self.controllers, "programmed": programmed}
+        )
 
     def begin(self, mission: Mission, measured: Measured, phase: float = 0.0) -> "Mind":
         """The mind of a robot that stands as measured and gets a mission."""

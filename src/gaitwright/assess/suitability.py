@@ -8,7 +8,12 @@ from typing import Literal
 
 import numpy as np
 
-from gaitwright.assess.motor_requirements import HOPELESS, fastest_supported, needs, shortage
+from gaitwright.assess.motor_requirements import (
+    HOPELESS,
+    fastest_supported,
+    motor_requirements,
+    shortage,
+)
 from gaitwright.locomotion import Brain
 from gaitwright.model.kinematics import HINGES, angles
 from gaitwright.model.robot import Robot
@@ -217,7 +222,7 @@ def of_motors(robot: Robot, skill: Skill) -> Finding:
         # A body that stands has no momentum to get over what is missing.
         hopeless = gait.duty >= 1.0 or shortage(robot, gait, *how, leeway=HOPELESS) is not None
         return Finding("motors", skill.name, "no" if hopeless else "limited", missing)
-    found = needs(robot, gait, *how)
+    found = motor_requirements(robot, gait, *how)
     share = f"{found.what} takes up to {found.load:.0%} of a motor's torque"
     if skill.fastest == 0.0 or skill.name == "turn":
         return Finding("motors", skill.name, "ok", share)

@@ -9,11 +9,9 @@ from gaitwright.cli.console import remark, working
 from gaitwright.errors import WrongUse
 from gaitwright.gait.climb.climber import Climber, climb_call
 from gaitwright.gait.climb.plan import climb
-from gaitwright.gait.coordinator import Coordinator
 from gaitwright.gait.leg_cycles.files import load_cycle
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle
 from gaitwright.ground.scene import Scene
-from gaitwright.locomotion import Brain
 from gaitwright.model.robot import Robot
 from gaitwright.session import DT, Push
 from gaitwright.signals import Mission, SkillCall
@@ -35,18 +33,13 @@ def run(args: Namespace) -> int:
         return climb_by_plan(robot, scene, args)
     chooser = fixed_skill(robot, args.skill, args.speed, args.lateral, args.turn, args.driver)
     check_turn(robot, chooser.skill_call)
-    check_motors(robot, chooser.skill_call)
+    cycle = load_cycle(args.cycle) if args.cycle else None
+    check_motors(robot, chooser.skill_call, cycle)
     push = Push(*args.push, at=args.seconds / 2) if args.push else None
     setting = trips.set_up(robot, scene, chooser, args.distribution)
-    if args.cycle:
-        setting = replace(setting, brain=with_cycle(setting.brain, skill.name, load_cycle(args.cycle)))
+    if cycle:
+        setting = replace(setting, brain=setting.brain.with_cycle(skill.name, cycle))
     return trips.run(setting, Mission((), args.speed, args.driver), args, push)
-
-
-def with_cycle(brain: Brain, skill: str, cycle: LegCycle) -> Brain:
-    """A brain whose feet follow a leg cycle in a skill."""
-    assert isinstance(brain.coordinator, Coordinator)
-    return replace(brain, coordinator=replace(brain.coordinator, cycles={skill: cycle}))
 
 
 def climb_by_plan(robot: Robot, scene: Scene, args: Namespace) -> int:
@@ -62,12 +55,16 @@ def climb_by_plan(robot: Robot, scene: Scene, args: Namespace) -> int:
     return trips.run(replace(setting, brain=brain, varied=False), Mission((), driver=args.driver), args)
 
 
-def check_motors(robot: Robot, call: SkillCall) -> None:
-    """`WrongUse` where body or motors are far from fit for a skill; a remark where nothing is to spare."""
-    told = too_wide(robot, call.gait) or shortage(robot, call.gait, call.velocity, call.turn, HOPELESS)
+def check_motors(robot: Robot, call: SkillCall, cycle: LegCycle | None = None) -> None:
+    """`WrongUse` where body or motors are far from fit for a skill; a remark where nothing is to spare.
+
+    `cycle`: the leg cycle that the feet follow, where it is not the skill's own.
+    """
+    motion = robot, call.gait, call.velocity, call.turn
+    told = too_wide(robot, call.gait) or shortage(*motion, HOPELESS, cycle)
     if told:
         raise WrongUse(told)
-    told = shortage(robot, call.gait, call.velocity, call.turn)
+    told = shortage(*motion, cycle=cycle)
     if told:
         remark(f"{told}: it may not keep up")
 

@@ -11,7 +11,6 @@ import numpy as np
 from jaxtyping import Float
 
 from gaitwright.control.moments import moment_of, row
-from gaitwright.dynamics.leg import base_at, foot_and_columns, hinge_axes, leg_at, leg_turns
 from gaitwright.dynamics.newton_euler import (
     NO_LOAD,
     bias_motion,
@@ -22,6 +21,7 @@ from gaitwright.dynamics.newton_euler import (
     solve_columns,
     with_accelerations,
 )
+from gaitwright.model.leg import base_at, foot_and_columns, hinge_axes, leg_at, leg_turns
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import (

@@ -13,9 +13,10 @@ import numpy as np
 
 from gaitwright.knowledge.forest import Forest, Situation
 from gaitwright.knowledge.trees import FeatureTree, interval_tree, tree
-from gaitwright.model.kinematics import leg_points_and_jacobian
+from gaitwright.model.leg_motion import columns_of
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, dot, heading, roll_pitch_yaw, rotation, times_t, vec, wrap
+from gaitwright.numerics.matrices import rows
 from gaitwright.signals import Route, Scan, Sensed, SkillCall
 from gaitwright.skills.chooser import KEEP_TURNING, TURN_FIRST
 from gaitwright.skills.following import bearing, braked, heading_error, wished_speed
@@ -202,7 +203,7 @@ def torque_utilisation(robot: Robot, sensed: Sensed) -> float:
     most = 0.0
     for i in range(robot.n):
         up = times_t(robot.leg_frame[i], up_b)
-        _, *columns = leg_points_and_jacobian(sensed.q[i], robot.offset[i], robot.sign[i])
+        columns = columns_of(vec(sensed.q[i]), rows(robot.offset[i]), robot.sign[i])
         load = float(sensed.load[i])
         for column, limit in zip(columns, vec(robot.tau_max[i]), strict=True):
             most = max(most, abs(dot(column, up)) * load / limit)

@@ -35,7 +35,7 @@ class Climber:
         time = memory + self.dt
         made = self.ascent.at(np.maximum(time + TICK * np.array([-1.0, 0.0, 1.0]), 0.0))
         over = time >= len(self.ascent.steps) * self.ascent.seconds
-        stance, (spin, spin_rate) = made.stance[1], spinning(made)
+        stance, (omega, omega_rate) = made.stance[1], turning(made)
         target = MotionTarget(
             phase=time / call.gait.period % 1.0,
             stance=stance,
@@ -45,8 +45,8 @@ class Climber:
             velocity_w=rate(made.position_w),
             acceleration_w=rate_of_rate(made.position_w),
             rotation_wb=made.rotation_wb[1],
-            angular_velocity_w=spin,
-            angular_acceleration_w=spin_rate,
+            angular_velocity_w=omega,
+            angular_acceleration_w=omega_rate,
             feet_w=made.feet_w[1],
             feet_velocity_w=rate(made.feet_w),
             feet_acceleration_w=rate_of_rate(made.feet_w),
@@ -77,7 +77,7 @@ def rate_of_rate(three: Float[np.ndarray, "3 ..."]) -> Float[np.ndarray, "..."]:
     return (three[2] - 2.0 * three[1] + three[0]) / TICK**2
 
 
-def spinning(made: Motion) -> tuple[Float[np.ndarray, "3"], Float[np.ndarray, "3"]]:
+def turning(made: Motion) -> tuple[Float[np.ndarray, "3"], Float[np.ndarray, "3"]]:
     """Angular velocity and acceleration of the body in the middle of three moments, world axes."""
     R = made.rotation_wb
     first, second = (np.array(rotation_vector(between(R[i], R[i + 1]))) / TICK for i in range(2))
