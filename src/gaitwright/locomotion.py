@@ -33,7 +33,7 @@ from gaitwright.signals import (
 from gaitwright.skills.chooser import DefaultChooser
 from gaitwright.skills.foothold_guard import FootholdGuard
 from gaitwright.skills.rule_chooser import RuleChooser
-from gaitwright.stages import Chooser, Controller, Memory, MotionStage, Navigation, Perception
+from gaitwright.stages import Chooser, Controller, Map, Memory, MotionStage, Navigation, Now, Perception
 
 LOOK_EVERY = 0.1
 """The navigator looks at the route this often [s]."""
@@ -55,12 +55,7 @@ class Programmed:
     """Programmes worked out so far: each is a function of its call, so what is here changes no result."""
 
     def command(
-        self,
-        target: MotionTarget,
-        sensed: Sensed,
-        memory: None = None,
-        call: SkillCall | None = None,
-        ground: GroundMap | None = None,
+        self, target: MotionTarget, sensed: Sensed, memory: None = None, call: Now = None, ground: Map = None
     ) -> tuple[MotorCommand, None]:
         """What the programme of the call says at the gait's phase."""
         assert call is not None, "a programme belongs to a call"

@@ -20,6 +20,10 @@ from gaitwright.signals import (
 
 Memory = Any
 """What a stage remembers from tick to tick: a value of its own making, that nobody else looks into."""
+Now = SkillCall | None
+"""The call in use; `None` before the first one."""
+Map = GroundMap | None
+"""What is known of the ground; `None`: nothing."""
 
 
 @runtime_checkable
@@ -56,13 +60,7 @@ class Navigation(Protocol):
 class Chooser(Protocol):
     """Route + Sensed + GroundMap → SkillCall; what it remembers is the call in use, with the facts in it."""
 
-    def choose(
-        self,
-        route: Route,
-        sensed: Sensed,
-        now: SkillCall | None = None,
-        ground: GroundMap | None = None,
-    ) -> SkillCall:
+    def choose(self, route: Route, sensed: Sensed, now: Now = None, ground: Map = None) -> SkillCall:
         """The skill for what lies ahead; `now`: the one in use; no `ground`: nothing is known of it."""
         ...
 
@@ -91,8 +89,8 @@ class Controller(Protocol):
         target: MotionTarget,
         sensed: Sensed,
         memory: Memory = None,
-        call: SkillCall | None = None,
-        ground: GroundMap | None = None,
+        call: Now = None,
+        ground: Map = None,
     ) -> tuple[MotorCommand, Memory]:
         """What every motor is told in this tick; `memory` is `None` at the first one."""
         ...

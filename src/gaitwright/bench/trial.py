@@ -19,8 +19,9 @@ from gaitwright.plant.registry import make_plant
 from gaitwright.record.metrics import Report
 from gaitwright.record.recording import INTERRUPTED, Recording
 from gaitwright.session import DT, Push, Session, record, scene_for
-from gaitwright.signals import GroundMap, Mission, Route, Sensed, SkillCall
+from gaitwright.signals import Mission, Route, Sensed, SkillCall
 from gaitwright.skills.chooser import fixed_skill
+from gaitwright.stages import Map, Now
 
 STILL = 0.01
 """Velocities below this are not asked for [m/s, rad/s]."""
@@ -163,11 +164,5 @@ class InTurn:
     second: SkillCall
     at: float
 
-    def choose(
-        self,
-        route: Route,
-        sensed: Sensed,
-        now: SkillCall | None = None,
-        ground: GroundMap | None = None,
-    ) -> SkillCall:
+    def choose(self, route: Route, sensed: Sensed, now: Now = None, ground: Map = None) -> SkillCall:
         return self.first if sensed.time < self.at else self.second

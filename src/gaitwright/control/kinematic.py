@@ -9,7 +9,8 @@ from gaitwright.control.servo import STIFF, Gains, posture_of, servo_command
 from gaitwright.model.kinematics import all_feet
 from gaitwright.model.leg_motion import BaseMotion, all_joint_rates, velocity_from_base
 from gaitwright.model.robot import Robot
-from gaitwright.signals import GroundMap, MotionTarget, MotorCommand, Sensed, SkillCall
+from gaitwright.signals import MotionTarget, MotorCommand, Sensed
+from gaitwright.stages import Map, Now
 
 
 @dataclass(frozen=True)
@@ -25,12 +26,7 @@ class KinematicController:
     gains: Gains = STIFF
 
     def command(
-        self,
-        target: MotionTarget,
-        sensed: Sensed,
-        memory: None = None,
-        call: SkillCall | None = None,
-        ground: GroundMap | None = None,
+        self, target: MotionTarget, sensed: Sensed, memory: None = None, call: Now = None, ground: Map = None
     ) -> tuple[MotorCommand, None]:
         """Joint torques [N·m] for this tick, within the limits; nothing is remembered."""
         qd = wanted_rates(self.robot, target)

@@ -19,7 +19,8 @@ from gaitwright.model.robot import Robot, scales
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.packing import Layout, Row
 from gaitwright.numerics.status import NOT_FINITE, SOLVED
-from gaitwright.signals import GroundMap, MotionTarget, MotorCommand, Sensed, SkillCall
+from gaitwright.signals import MotionTarget, MotorCommand, Sensed
+from gaitwright.stages import Map, Now
 
 Method = Literal["qp", "lp"]
 METHODS: tuple[Method, ...] = ("qp", "lp")
@@ -164,8 +165,8 @@ class NumericalController:
         target: MotionTarget,
         sensed: Sensed,
         memory: Row | None = None,
-        call: SkillCall | None = None,
-        ground: GroundMap | None = None,
+        call: Now = None,
+        ground: Map = None,
     ) -> tuple[MotorCommand, Row]:
         """Joint torques [N·m] for this tick, and its `TickResult`, whose forces the next one goes on from."""
         robot, n = self.robot, self.robot.n

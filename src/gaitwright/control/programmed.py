@@ -10,7 +10,8 @@ from gaitwright.errors import WrongUse
 from gaitwright.model.kinematics import HINGES
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.compiled import kernel
-from gaitwright.signals import GroundMap, MotionTarget, MotorCommand, Posture, Sensed, SkillCall
+from gaitwright.signals import MotionTarget, MotorCommand, Posture, Sensed
+from gaitwright.stages import Map, Now
 
 Table = Float[np.ndarray, "bins legs 3"]
 
@@ -58,12 +59,7 @@ class ProgrammedController:
             raise WrongUse(beyond(self.robot, self.table, over))
 
     def command(
-        self,
-        target: MotionTarget,
-        sensed: Sensed,
-        memory: None = None,
-        call: SkillCall | None = None,
-        ground: GroundMap | None = None,
+        self, target: MotionTarget, sensed: Sensed, memory: None = None, call: Now = None, ground: Map = None
     ) -> tuple[MotorCommand, None]:
         """Joint torques [N·m] for this tick, within the limits; nothing is remembered."""
         q, qd = played(self.table, target.phase), played(self.rates, target.phase)

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from gaitwright.model.robot import Robot
-from gaitwright.signals import GroundMap, Route, Sensed, SkillCall
+from gaitwright.signals import Route, Sensed, SkillCall
 from gaitwright.skills.following import braked, heading_error, turn_rate, wished_speed
 from gaitwright.skills.library import (
     Skill,
@@ -16,6 +16,7 @@ from gaitwright.skills.library import (
     skill_names,
     speed_scale,
 )
+from gaitwright.stages import Map, Now
 
 TURN_FIRST = math.radians(40)
 """Farther off the path than this, the robot turns on the spot before it goes on."""
@@ -29,13 +30,7 @@ class DefaultChooser:
 
     robot: Robot
 
-    def choose(
-        self,
-        route: Route,
-        sensed: Sensed,
-        now: SkillCall | None = None,
-        ground: GroundMap | None = None,
-    ) -> SkillCall:
+    def choose(self, route: Route, sensed: Sensed, now: Now = None, ground: Map = None) -> SkillCall:
         """The skill for what lies ahead; `now` is the one in use."""
         if route.arrived or not route.path:
             return self.call("stand", route, because=route.no_way or "at the goal")
@@ -81,13 +76,7 @@ class HeldSkill:
 
     skill_call: SkillCall
 
-    def choose(
-        self,
-        route: Route,
-        sensed: Sensed,
-        now: SkillCall | None = None,
-        ground: GroundMap | None = None,
-    ) -> SkillCall:
+    def choose(self, route: Route, sensed: Sensed, now: Now = None, ground: Map = None) -> SkillCall:
         return self.skill_call
 
 

@@ -9,9 +9,9 @@ from jaxtyping import Float
 from gaitwright.ground.elevation import is_known, may_stand, nearest_height
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, heading, rotation
-from gaitwright.signals import ElevationGrid, GroundMap, Route, Sensed, SkillCall
+from gaitwright.signals import ElevationGrid, Route, Sensed, SkillCall
 from gaitwright.skills.library import find_skill, gait_of
-from gaitwright.stages import Chooser
+from gaitwright.stages import Chooser, Map, Now
 
 WIDEST = 1.1
 """A stretch without a foothold up to this long is stepped over, in body heights."""
@@ -32,13 +32,7 @@ class FootholdGuard:
     chooser: Chooser
     robot: Robot
 
-    def choose(
-        self,
-        route: Route,
-        sensed: Sensed,
-        now: SkillCall | None = None,
-        ground: GroundMap | None = None,
-    ) -> SkillCall:
+    def choose(self, route: Route, sensed: Sensed, now: Now = None, ground: Map = None) -> SkillCall:
         """The other's choice; `stop`, with a sentence, where it leads where no foot can stand."""
         call = self.chooser.choose(route, sensed, now, ground)
         halt = None if ground is None else self.trouble(call, route, sensed, ground.footholds)

@@ -11,12 +11,13 @@ from gaitwright.knowledge.forest import Forest, Situation
 from gaitwright.knowledge.memory import Action, Fact, applied, remembered
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.model.robot import Robot
-from gaitwright.signals import GroundMap, Route, Sensed, SkillCall
+from gaitwright.signals import Route, Sensed, SkillCall
 from gaitwright.skills.book_trees import in_trees_of, up_to_date
 from gaitwright.skills.chooser import DefaultChooser
 from gaitwright.skills.following import braked, heading_error, turn_rate
 from gaitwright.skills.library import fastest, find_skill, gait_of, skill_names, speed_scale
 from gaitwright.skills.situation import measured, named
+from gaitwright.stages import Map, Now
 
 DOING = "rule in use"
 """The fact of working memory that names the rule that fired last."""
@@ -46,13 +47,7 @@ class RuleChooser:
         for rule in self.rulebook.rules:
             check_until(self.rulebook.forest, rule.action)
 
-    def choose(
-        self,
-        route: Route,
-        sensed: Sensed,
-        now: SkillCall | None = None,
-        ground: GroundMap | None = None,
-    ) -> SkillCall:
+    def choose(self, route: Route, sensed: Sensed, now: Now = None, ground: Map = None) -> SkillCall:
         """The skill for what lies ahead; `now` is the one in use."""
         raw = measured(self.robot, route, sensed, now)
         memory = remembered(now.memory if now is not None else {})
