@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from gaitwright.cli.recorded_moment import situation_at
 from gaitwright.description.load import load_robot
 from gaitwright.errors import NoRoom
 from gaitwright.ground.scene import load_scene
@@ -20,6 +21,7 @@ from gaitwright.record.channels import SITUATION
 from gaitwright.record.moment import call_at, route_at, sensed_at
 from gaitwright.record.recording import Recorder, Recording, load
 from gaitwright.signals import Mission
+from gaitwright.skills.situation import situation
 
 ROBOT = load_robot("go2")
 posix = pytest.mark.skipif(os.name != "posix", reason="limits of a process are POSIX's")
@@ -166,6 +168,13 @@ def test_a_recording_keeps_the_situation(laps: list[Lap], filed: Recording):
         assert route.path[0] == lap.route.path[0] and len(route.path) == len(lap.route.path)
         np.testing.assert_array_equal(sensed.qd, lap.sensed.qd)
         assert call_at(filed, tick).skill == lap.call.skill
+
+
+def test_the_situation_of_a_recording_is_the_one_that_was_met(laps: list[Lap], filed: Recording):
+    for tick in (1, 400, 1000, len(laps) - 1):
+        lap, before = laps[tick], laps[tick - 1].call
+        met = situation(ROBOT, lap.route, lap.sensed, before)
+        assert situation_at(filed, tick) == dict(met.items())
 
 
 def test_nobody_looked_is_recorded_as_such(laps: list[Lap]):
