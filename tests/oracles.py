@@ -11,9 +11,10 @@ import pytest
 from gaitwright.bench.evidence.oracles import hinge_model, pinocchio
 from gaitwright.description.load import load_robot
 from gaitwright.ground.scene import load_scene
+from gaitwright.model.kinematics import reached_branches, to_leg
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, rotation
-from gaitwright.plant.mujoco.world import build_world
+from gaitwright.plant.mujoco.world import Placed, build_world
 from robots_by_hand import dog, insect
 
 NEEDS_PINOCCHIO = pytest.mark.skipif(sys.platform == "win32", reason="Pinocchio has no wheels there")
@@ -59,6 +60,16 @@ def any_state(robot: Robot, rng: np.random.Generator) -> State:
     )
 
 
+def branches(robot: Robot, leg: str, foot_b: np.ndarray) -> dict[tuple[int, int], np.ndarray]:
+    """Joint angles [rad] of each branch (sg, kn) that brings the foot of `leg` to `foot_b`, base frame [m].
+
+    Four far inside the reach, none outside; at a singular pose two are the same. Joint limits are not asked.
+    """
+    i = robot.legs.index(leg)
+    point = to_leg(robot.leg_frame[i], robot.hip[i], foot_b)
+    return reached_branches(point, robot.offset[i], float(robot.sign[i]))
+
+
 def unlike(robot: Robot, rng: np.random.Generator) -> Robot:
     """A robot of the same build with other lengths, axes, masses and inertias, no two alike."""
     n = robot.n
@@ -92,7 +103,7 @@ def any_inertia(rng: np.random.Generator, mass: float, size: float) -> np.ndarra
 # --- MuJoCo --------------------------------------------------------------------------------------
 def bare_world(robot: Robot) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """The robot alone: no contact, no joint limit, no friction."""
-    model = build_world(robot, load_scene("flat"))
+    model = build_world([Placed(robot)], load_scene("flat"))
     model.dof_damping[:] = 0.0
     model.dof_frictionloss[:] = 0.0
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT

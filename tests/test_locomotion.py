@@ -10,15 +10,17 @@ import pytest
 
 from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.ground.terrain import Box, Flat
-from gaitwright.locomotion import Brain, Lap, think, trip
+from gaitwright.locomotion import Brain, Lap, think
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, rotation
+from gaitwright.perception.known_ground import map_of
 from gaitwright.plant.mujoco.simulation import MujocoPlant
-from gaitwright.record.recording import Recording, walk
-from gaitwright.signals import Mission, Torques
+from gaitwright.record.recording import Recording
+from gaitwright.session import Session, walk
+from gaitwright.signals import Mission, MotorCommand
 from gaitwright.skills.chooser import fixed_skill
 from gaitwright.skills.library import LIBRARY, speed_scale
-from gaitwright.termination import STUCK, Verdict, Watch
+from gaitwright.termination import STUCK, Ending, Termination
 from oracles import robot_called
 
 DT = 0.002
@@ -110,9 +112,9 @@ def test_a_thought_depends_on_nothing_but_what_it_is_given() -> None:
     for _ in range(50):
         lap, after = think(brain, mind, sensed)
         same, _ = think(brain, mind, sensed)
-        assert lap.torques.tau.tobytes() == same.torques.tau.tobytes()
+        assert lap.command.tau.tobytes() == same.torques.tau.tobytes()
         assert (lap.route, lap.call) == (same.route, same.call)
-        sensed, mind = plant.step(lap.torques), after
+        sensed, mind = plant.step(lap.command), after
 
 
 # --- the end -------------------------------------------------------------------------------------
@@ -123,9 +125,9 @@ class Struck(MujocoPlant):
     at: float = 0.3
     what: str = "nan"
 
-    def step(self, torques: Torques):
+    def step(self, command: MotorCommand):
         before = self.data.time
-        sensed = super().step(torques)
+        sensed = super().step(command)
         if before < self.at <= self.data.time + 1e-9:
             self.strike()
             mujoco.mj_forward(self.model, self.data)
@@ -146,7 +148,7 @@ def strike(what: str, monkeypatch: pytest.MonkeyPatch, tmp_path) -> tuple[list[L
     monkeypatch.chdir(tmp_path)  # MuJoCo writes its warnings into the working folder
     robot = robot_called("go2")
     plant = Struck(robot, FLAT, what=what)
-    return list(trip(holding(robot, "trot"), plant, Mission(()), 2.0, vary=False)), plant
+    return list(Session(holding(robot, "trot"), plant, Mission(()), 2.0, vary=False)), plant
 
 
 @pytest.mark.parametrize(
@@ -175,7 +177,7 @@ def test_when_it_stops_its_motors_are_off(what: str, monkeypatch, tmp_path) -> N
 def test_a_trip_that_nobody_follows_any_more_switches_the_motors_off() -> None:
     robot = robot_called("go2")
     plant = MujocoPlant(robot, FLAT)
-    laps = trip(holding(robot, "stand"), plant, Mission(()), 1.0, vary=False)
+    laps = iter(Session(holding(robot, "stand"), plant, Mission(()), 1.0, vary=False))
     for _ in itertools.islice(laps, 20):
         pass
     assert plant.data.ctrl.any()
@@ -214,7 +216,7 @@ def on_the_way() -> tuple[Brain, Lap]:
     """One honest lap of a robot that goes somewhere."""
     robot = robot_called("go2")
     brain, mission = choosing(robot), Mission(((8.0, 0.0),))
-    laps = trip(brain, MujocoPlant(robot, FLAT), mission, 60.0, vary=False)
+    laps = Session(brain, MujocoPlant(robot, FLAT), mission, 60.0, vary=False)
     return brain, list(itertools.islice(laps, 20))[-1]
 
 
@@ -224,12 +226,12 @@ def later(lap: Lap, time: float, **changes) -> Lap:
     return replace(lap, sensed=replace(lap.sensed, time=time, **changes), route=route)
 
 
-def watching(brain: Brain) -> Watch:
-    return Watch(brain.robot, brain.navigator.view.bounds, 1000.0)
+def watching(brain: Brain) -> Termination:
+    return Termination(brain.robot, map_of(FLAT, brain.robot).bounds, 1000.0)
 
 
-def verdict(watch: Watch, lap: Lap) -> Verdict | None:
-    return watch.judge(lap.sensed, lap.route, lap.call, lap.target, lap.torques)
+def verdict(watch: Termination, lap: Lap) -> Ending | None:
+    return watch.judge(lap.sensed, lap.route, lap.call, lap.target, lap.command)
 
 
 def test_no_progress_is_noticed_and_progress_is_patience_anew(on_the_way) -> None:
@@ -248,17 +250,17 @@ def test_no_progress_is_noticed_and_progress_is_patience_anew(on_the_way) -> Non
 def test_a_force_distribution_that_keeps_failing_is_an_overload(on_the_way) -> None:
     brain, lap = on_the_way
     watch, words = watching(brain), "these feet cannot carry this load"
-    bad = replace(lap, torques=replace(lap.torques, status=words))
+    bad = replace(lap, command=replace(lap.command, status=words))
     assert verdict(watch, later(lap, 1.0)) is None
     assert verdict(watch, later(bad, 1.1)) is None
     assert verdict(watch, later(lap, 1.2)) is None, "a moment's failure is forgiven"
     assert verdict(watch, later(bad, 1.3)) is None
-    assert verdict(watch, later(bad, 1.5)) == Verdict(f"{words} (since 1.20 s)")
+    assert verdict(watch, later(bad, 1.5)) == Ending(f"{words} (since 1.20 s)")
 
 
 def test_torques_that_are_no_numbers_never_reach_the_motors(on_the_way) -> None:
     brain, lap = on_the_way
-    broken = replace(lap, torques=replace(lap.torques, tau=np.full((4, 3), np.nan)))
+    broken = replace(lap, command=replace(lap.command, tau=np.full((4, 3), np.nan)))
     judged = verdict(watching(brain), broken)
     assert judged is not None and judged.because.startswith("a torque is not a number at ")
 

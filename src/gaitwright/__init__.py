@@ -1,8 +1,10 @@
 """Gaitwright teaches legged robots to move, by rules you can read.
 
-    Mission ─► navigation ─► Route ─► skills ─► SkillCall ─► gait ─► MotionTarget ─► control ─► Torques ─┐
-                    ▲                    ▲                     ▲                         ▲             plant
-                    └────────────────────┴─────── Sensed ──────┴─────────────────────────┴───────────────┘
+    Mission ─► navigation ─► Route ─► skills ─► SkillCall ─► gait ─► MotionTarget ─► control ─► MotorCommand
+                   ▲                    ▲                     ▲                         ▲                │
+                   └────────────────────┴─ Sensed, GroundMap ─┴─────────────────────────┘              plant
+                                                   ▲                                                     │
+                                               perception ◄──────────────── Measured ◄───────────────────┘
 
 One frozen value per arrow (`signals`), one folder per stage, one lap in `locomotion.think`. Names are
 loaded when they are first used: importing this package costs milliseconds.
@@ -25,10 +27,14 @@ if TYPE_CHECKING:
     from gaitwright.plant.mujoco.simulation import MujocoPlant as MujocoPlant
     from gaitwright.record.recording import Recording as Recording
     from gaitwright.record.recording import Report as Report
-    from gaitwright.record.recording import walk as walk
+    from gaitwright.session import Session as Session
+    from gaitwright.session import walk as walk
     from gaitwright.signals import Gait as Gait
+    from gaitwright.signals import GroundMap as GroundMap
+    from gaitwright.signals import Measured as Measured
     from gaitwright.signals import Mission as Mission
     from gaitwright.signals import MotionTarget as MotionTarget
+    from gaitwright.signals import MotorCommand as MotorCommand
     from gaitwright.signals import Route as Route
     from gaitwright.signals import Sensed as Sensed
     from gaitwright.signals import SkillCall as SkillCall
@@ -46,8 +52,12 @@ _ROOMS = {
     "ground.scene": ("Scene", "load_scene"),
     "description.load": ("load_robot",),
     "plant.mujoco.simulation": ("MujocoPlant",),
-    "record.recording": ("Recording", "Report", "walk"),
-    "signals": ("Gait", "Mission", "MotionTarget", "Route", "Sensed", "SkillCall", "Torques"),
+    "record.recording": ("Recording", "Report"),
+    "session": ("Session", "walk"),
+    "signals": (
+        *("Gait", "GroundMap", "Measured", "Mission", "MotionTarget", "MotorCommand"),
+        *("Route", "Sensed", "SkillCall", "Torques"),
+    ),
     "skillbook.book": ("Skillbook",),
 }
 _HOME = {name: f"gaitwright.{room}" for room, names in _ROOMS.items() for name in names}

@@ -25,6 +25,10 @@ class BadFile(GaitwrightError):
     exit_code = 3
 
 
+class NoRoom(GaitwrightError):
+    """A disk that is full, or a file that may not grow."""
+
+
 def unknown(kind: str, asked: str, known: Iterable[str]) -> WrongUse:
     """The error for a name that does not exist: it names what was asked, what there is, and a near miss."""
     names = list(known)

@@ -1,34 +1,39 @@
-"""The lap: Mission → Route → SkillCall → MotionTarget → Torques → Sensed. Start reading here.
+"""The lap: Measured → Sensed → Route → SkillCall → MotionTarget → MotorCommand. Start reading here.
 
-`think` is one lap through the stages and nothing else; `trip` repeats it on a plant until the robot has
-arrived or something ends the trip, and says what.
+`think` is one lap through the stages and nothing else; `session.Session` repeats it on a plant.
 """
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from time import perf_counter_ns
-from typing import Protocol, runtime_checkable
-
-import numpy as np
 
 from gaitwright.control.kinematic import KinematicController
-from gaitwright.control.numerical import Method, NumericalController, idle
+from gaitwright.control.numerical import Method, NumericalController
 from gaitwright.control.programmed import ProgrammedController
 from gaitwright.errors import unknown
 from gaitwright.gait.coordinator import Coordinator
 from gaitwright.gait.desired_cycle import Manner, desired_cycle
-from gaitwright.gait.state import GaitMemory
-from gaitwright.ground.foothold_map import Footing
+from gaitwright.gait.leg_cycles.leg_cycle import LegCycle
 from gaitwright.ground.scene import Scene
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.model.robot import Robot
 from gaitwright.navigation.navigator import Navigator
-from gaitwright.signals import Gait, Mission, MotionTarget, Route, Sensed, SkillCall, Torques
-from gaitwright.skills.chooser import PlainChooser
-from gaitwright.skills.foothold_guard import Cautious
+from gaitwright.perception.known_ground import KnownGround
+from gaitwright.signals import (
+    Gait,
+    GroundMap,
+    Measured,
+    Mission,
+    MotionTarget,
+    MotorCommand,
+    Route,
+    Sensed,
+    SkillCall,
+)
+from gaitwright.skills.chooser import DefaultChooser
+from gaitwright.skills.foothold_guard import FootholdGuard
 from gaitwright.skills.rule_chooser import RuleChooser
-from gaitwright.termination import Verdict, Watch
+from gaitwright.stages import Chooser, Controller, Map, Memory, MotionStage, Navigation, Now, Perception
 
 LOOK_EVERY = 0.1
 """The navigator looks at the route this often [s]."""
@@ -37,40 +42,34 @@ MOST_PROGRAMMES = 64
 """Programmed motions kept; on a long way with changing speeds there is no end of them."""
 
 
-@runtime_checkable
-class Controller(Protocol):
-    """MotionTarget + Sensed → Torques."""
+@dataclass(frozen=True)
+class Programmed:
+    """Driver `programmed`: every call plays the joint angles of its own undisturbed gait."""
 
-    def torques(self, target: MotionTarget, sensed: Sensed, previous: Torques | None = None) -> Torques: ...
+    robot: Robot
+    cycles: dict[str, LegCycle] = field(default_factory=dict)
+    """Leg cycles by skill, in place of those that come along."""
+    known: dict[tuple[Gait, tuple[float, float], float], ProgrammedController] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
+    """Programmes worked out so far: each is a function of its call, so what is here changes no result."""
 
+    def command(
+        self, target: MotionTarget, sensed: Sensed, memory: None = None, call: Now = None, ground: Map = None
+    ) -> tuple[MotorCommand, None]:
+        """What the programme of the call says at the gait's phase."""
+        assert call is not None, "a programme belongs to a call"
+        return self.programme(call.gait, call.velocity, call.turn).command(target, sensed)
 
-@runtime_checkable
-class Chooser(Protocol):
-    """Route + Sensed → SkillCall."""
-
-    def choose(self, route: Route, sensed: Sensed, now: SkillCall | None = None) -> SkillCall: ...
-
-
-@runtime_checkable
-class Mover(Protocol):
-    """SkillCall + Sensed → MotionTarget: `gait.coordinator`, or a climb that was planned (`gait.climb`)."""
-
-    def begin(self, sensed: Sensed, phase: float = 0.0) -> GaitMemory: ...
-
-    def move(
-        self, memory: GaitMemory, call: SkillCall, sensed: Sensed
-    ) -> tuple[MotionTarget, GaitMemory]: ...
-
-
-@runtime_checkable
-class Plant(Protocol):
-    """Torques → Sensed: a simulated robot, or a real one."""
-
-    dt: float
-
-    def reset(self, seed: int = 0, vary: bool = True) -> Sensed: ...
-
-    def step(self, torques: Torques) -> Sensed: ...
+    def programme(self, gait: Gait, velocity: tuple[float, float], turn: float) -> ProgrammedController:
+        """The programme of a gait at a velocity [m/s] and yaw rate [rad/s]."""
+        motion = gait, velocity, turn
+        if motion not in self.known:
+            if len(self.known) == MOST_PROGRAMMES:
+                self.known.clear()
+            cycle = desired_cycle(self.robot, *motion, Manner(cycle=self.cycles.get(gait.name), sways=True))
+            self.known[motion] = ProgrammedController(self.robot, cycle.q, cycle.qd, cycle.stance)
+        return self.known[motion]
 
 
 @dataclass(frozen=True)
@@ -78,12 +77,11 @@ class Brain:
     """The stages of one robot: settings only, nothing that changes while it walks."""
 
     robot: Robot
-    navigator: Navigator
+    perception: Perception
+    navigator: Navigation
     chooser: Chooser
-    coordinator: Mover
+    coordinator: MotionStage
     controllers: dict[str, Controller]
-    programmes: dict[tuple[Gait, tuple[float, float], float], Controller] = field(default_factory=dict)
-    """Programmed motions worked out so far, by gait, velocity and yaw rate."""
 
     @classmethod
     def of(  # noqa: PLR0913 - the door to all settings; most calls name two of these
@@ -102,48 +100,76 @@ class Brain:
         foot forces are shared, `"qp"` or the thesis's `"lp"`; `sees`: whether feet know the ground ahead;
         `rulebook`: rules that choose the skills in the place of a chooser.
         """
-        footing = Footing.of(scene, robot) if sees else Footing.blind()
         if chooser is None:
-            chooser = PlainChooser(robot) if rulebook is None else RuleChooser(robot, rulebook)
+            chooser = DefaultChooser(robot) if rulebook is None else RuleChooser(robot, rulebook)
         numerical = NumericalController(robot, method)
         return cls(
             robot,
-            Navigator.of(robot, scene, sees),
-            Cautious(chooser, robot, footing) if footing.is_known else chooser,
-            Coordinator(robot, dt, footing),
-            {"numerical": numerical, "hybrid": numerical, "kinematic": KinematicController(robot)},
+            KnownGround.of(scene, robot, sees),
+            Navigator(robot),
+            FootholdGuard(chooser, robot) if sees else chooser,
+            Coordinator(robot, dt),
+            {
+                "numerical": numerical,
+                "hybrid": numerical,
+                "kinematic": KinematicController(robot),
+                "programmed": Programmed(robot),
+            },
         )
 
-    def controller(self, call: SkillCall) -> Controller:
-        """Who computes the torques of a call; each call has a programmed motion of its own."""
-        if call.driver not in (*self.controllers, "programmed"):
-            raise unknown("driver", call.driver, [*self.controllers, "programmed"])
-        if call.driver != "programmed":
-            return self.controllers[call.driver]
-        motion = call.gait, call.velocity, call.turn
-        if motion not in self.programmes:
-            if len(self.programmes) == MOST_PROGRAMMES:
-                self.programmes.clear()
-            cycle = desired_cycle(self.robot, *motion, Manner(sways=True))
-            self.programmes[motion] = ProgrammedController(self.robot, cycle.q, cycle.qd, cycle.stance)
-        return self.programmes[motion]
+    def controller(self, driver: str) -> Controller:
+        """Who computes the torques. Raises `WrongUse` for a driver that there is not."""
+        if driver not in self.controllers:
+            raise unknown("driver", driver, self.controllers)
+        return self.controllers[driver]
 
-    def begin(self, mission: Mission, sensed: Sensed, phase: float = 0.0) -> "Mind":
-        """The mind of a robot that stands as sensed and gets a mission."""
-        route = self.navigator.set_out(mission, sensed)
-        call = self.chooser.choose(route, sensed)
-        return Mind(mission, route, call, self.coordinator.begin(sensed, phase))
+    def with_cycle(self, skill: str, cycle: LegCycle) -> "Brain":
+        """The same brain with feet that follow a leg cycle in a skill, whoever computes the torques."""
+        assert isinstance(self.coordinator, Coordinator), "a planned climb has no leg cycles"
+        coordinator = replace(self.coordinator, cycles={**self.coordinator.cycles, skill: cycle})
+        programmed = Programmed(self.robot, dict(coordinator.cycles))
+        return replace(
+            self, coordinator=coordinator, controllers={**self.controllers, "programmed": programmed}
+        )
+
+    def begin(self, mission: Mission, measured: Measured, phase: float = 0.0) -> "Mind":
+        """The mind of a robot that stands as measured and gets a mission."""
+        sensed, ground, perceived = self.perception.perceive(measured, None)
+        route, travelled = self.navigator.set_out(
+            mission, sensed, ground, self.perception.look(ground, sensed)
+        )
+        call = self.chosen(mission, route, sensed, None, ground)
+        gait = self.coordinator.begin(sensed, phase)
+        return Mind(mission, ground, route, call, Memories(perceived, travelled, gait))
+
+    def chosen(
+        self, mission: Mission, route: Route, sensed: Sensed, now: SkillCall | None, ground: GroundMap
+    ) -> SkillCall:
+        """The skill for what lies ahead, with the mission's driver where it names none."""
+        call = self.chooser.choose(route, sensed, now, ground)
+        return call if call.driver else replace(call, driver=mission.driver)
+
+
+@dataclass(frozen=True, slots=True)
+class Memories:
+    """What each stage handed back for the next lap."""
+
+    perception: Memory
+    navigator: Memory
+    gait: Memory
+    control: Memory = None
 
 
 @dataclass(frozen=True, slots=True)
 class Mind:
-    """What a robot remembers from lap to lap."""
+    """What a robot knows and remembers from lap to lap."""
 
     mission: Mission
+    ground: GroundMap
+    """What is known of the ground."""
     route: Route
     call: SkillCall
-    gait: GaitMemory
-    torques: Torques | None = None
+    memories: Memories
     looked_at: float = -math.inf
     """When the navigator last looked [s]."""
     chosen_at: float = -math.inf
@@ -158,76 +184,45 @@ class Lap:
     route: Route
     call: SkillCall
     target: MotionTarget
-    torques: Torques
+    command: MotorCommand
     took: tuple[float, float]
     """Time for the whole tick and for the controller alone [µs]."""
     stopped_because: str | None = None
-    """Why the trip ends with this lap."""
+    """Why the run ends with this lap."""
     arrived: bool = False
     fell: bool = False
 
+    @property
+    def torques(self) -> MotorCommand:
+        """The command, by the name it had before motors could be told more than a torque."""
+        return self.command
 
-def think(brain: Brain, mind: Mind, sensed: Sensed) -> tuple[Lap, Mind]:
-    """One lap from what is sensed to torques, in the order of the data flow."""
+
+def think(brain: Brain, mind: Mind, measured: Measured) -> tuple[Lap, Mind]:
+    """One lap from what is measured to a command, in the order of the data flow."""
     began = perf_counter_ns()
-    mind = plan_and_choose(brain, mind, sensed)
-    target, gait = brain.coordinator.move(mind.gait, mind.call, sensed)
+    sensed, ground, perceived = brain.perception.perceive(measured, mind.memories.perception)
+    mind, travelled = plan_and_choose(brain, mind, sensed, ground)
+    call = mind.call
+    target, gait = brain.coordinator.move(mind.memories.gait, call, sensed, ground)
     handed = perf_counter_ns()
-    torques = brain.controller(mind.call).torques(target, sensed, mind.torques)
+    controller = brain.controller(call.driver)
+    command, control = controller.command(target, sensed, mind.memories.control, call, ground)
     done = perf_counter_ns()
-    took = ((done - began) / 1e3, (done - handed) / 1e3)
-    lap = Lap(sensed, mind.route, mind.call, target, torques, took)
-    return lap, Mind(mind.mission, mind.route, mind.call, gait, torques, mind.looked_at, mind.chosen_at)
+    lap = Lap(sensed, mind.route, call, target, command, ((done - began) / 1e3, (done - handed) / 1e3))
+    memories = Memories(perceived, travelled, gait, control)
+    return lap, Mind(mind.mission, ground, mind.route, call, memories, mind.looked_at, mind.chosen_at)
 
 
-def plan_and_choose(brain: Brain, mind: Mind, sensed: Sensed) -> Mind:
+def plan_and_choose(brain: Brain, mind: Mind, sensed: Sensed, ground: GroundMap) -> tuple[Mind, Memory]:
     """The slower stages: the navigator looks a few times a second, the chooser at every cycle and event."""
-    now, route = sensed.time, mind.route
-    looked_at = mind.looked_at
+    now, route, looked_at, travelled = sensed.time, mind.route, mind.looked_at, mind.memories.navigator
     if now - looked_at >= LOOK_EVERY - 1e-9:
-        route, looked_at = brain.navigator.plan(route, sensed), now
+        scan = brain.perception.look(ground, sensed) if route.path else None
+        route, travelled = brain.navigator.plan(route, sensed, ground, scan, travelled)
+        looked_at = now
     event = route.arrived != mind.route.arrived or len(route.path) != len(mind.route.path)
     if not event and now - mind.chosen_at < mind.call.gait.period - 1e-9:
-        return mind if route is mind.route else replace(mind, route=route, looked_at=looked_at)
-    call = brain.chooser.choose(route, sensed, mind.call)
-    return replace(mind, route=route, call=call, looked_at=looked_at, chosen_at=now)
-
-
-def trip(
-    brain: Brain, plant: Plant, mission: Mission, seconds: float, seed: int = 0, vary: bool = True
-) -> Iterator[Lap]:
-    """Laps on a plant until the mission ends; the last one says why (`stopped_because`).
-
-    `seed` varies the start: pose, velocity and the phase of the gait.
-    """
-    sensed = plant.reset(seed, vary)
-    phase = float(np.random.default_rng([seed, 1]).uniform()) if vary else 0.0
-    mind = brain.begin(mission, sensed, phase)
-    watch = Watch(brain.robot, brain.navigator.view.bounds, seconds, sensed.time)
-    try:
-        while True:
-            if not sensed.is_finite():
-                yield halted(brain, mind, sensed)
-                return
-            lap, mind = think(brain, mind, sensed)
-            verdict = watch.judge(sensed, lap.route, lap.call, lap.target, lap.torques)
-            if verdict:
-                yield ended(lap, verdict)
-                return
-            yield lap
-            sensed = plant.step(lap.torques)
-    finally:
-        # However the trip ends, also where nobody follows it any more: motors off.
-        plant.step(idle(brain.robot))
-
-
-def ended(lap: Lap, verdict: Verdict) -> Lap:
-    """The last lap of a trip."""
-    return replace(lap, stopped_because=verdict.because, arrived=verdict.arrived, fell=verdict.fell)
-
-
-def halted(brain: Brain, mind: Mind, sensed: Sensed) -> Lap:
-    """The lap of a robot whose state is no longer a number: motors off."""
-    target, _ = brain.coordinator.move(mind.gait, mind.call, sensed)
-    sentence = f"the sensed state is not a number at {sensed.time:.3f} s: motors stopped"
-    return Lap(sensed, mind.route, mind.call, target, idle(brain.robot), (0.0, 0.0), sentence)
+        return mind if route is mind.route else replace(mind, route=route, looked_at=looked_at), travelled
+    call = brain.chosen(mind.mission, route, sensed, mind.call, ground)
+    return replace(mind, route=route, call=call, looked_at=looked_at, chosen_at=now), travelled

@@ -1,7 +1,7 @@
 """The values on the arrows of the data flow, one frozen value per arrow.
 
     Mission ─► navigation ─► Route ─► skills ─► SkillCall ─► gait ─► MotionTarget
-            ─► control ─► Torques ─► plant ─► Sensed
+            ─► control ─► MotorCommand ─► plant ─► Measured
 
 SI units and radians. `_w`: world axes; `_b`: base axes; quaternions `(w, x, y, z)`. Arrays per leg are
 `(legs, 3)` in the robot's leg order. Arrays are copies, never views into a simulator.
@@ -10,23 +10,25 @@ SI units and radians. `_w`: world axes; `_b`: base axes; quaternions `(w, x, y, 
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Bool, Float
 
 from gaitwright.numerics.compiled import kernel
+from gaitwright.numerics.packing import Packed, packed
 
 
 @kernel
-def are_finite(position, orientation, velocity, spin, q, qd, load):
-    """Whether every number of a sensed state is a number."""
-    vectors = position.sum() + orientation.sum() + velocity.sum() + spin.sum()
-    return math.isfinite(vectors + q.sum() + qd.sum() + load.sum())
+def are_finite(row):
+    """Whether every number of a row is one."""
+    return math.isfinite(row.sum())
 
 
+@packed
 @dataclass(frozen=True, slots=True)
-class Sensed:
-    """What happened: the state of the robot as every controller reads it (row R3)."""
+class Sensed(Packed):
+    """What is: the state of the robot as every controller reads it (row R3)."""
 
     time: float
     """Time since the start [s]."""
@@ -46,16 +48,21 @@ class Sensed:
     """Normal force measured at each foot [N]."""
 
     def is_finite(self) -> bool:
-        """Whether every number of the state is a number."""
-        return are_finite(
-            self.position_w,
-            self.orientation_wb,
-            self.velocity_w,
-            self.angular_velocity_b,
-            self.q,
-            self.qd,
-            self.load,
-        )
+        """Whether every number of the state is one."""
+        return are_finite(self.row)
+
+
+@packed
+@dataclass(frozen=True, slots=True)
+class Measured(Sensed):
+    """What happened: the state as a plant has it, and what an inertial unit on the base feels.
+
+    A simulated plant tells the truth, so its `Measured` may be taken for a `Sensed` as it is; an estimator
+    makes a `Sensed` of joints, load, gyroscope and accelerometer alone.
+    """
+
+    specific_force_b: tuple[float, float, float]
+    """Acceleration of the base origin less gravity, base axes, mean over the last control period [m/s²]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +75,46 @@ class Mission:
     """Wished speed [m/s]; `None` leaves it to the skill."""
     driver: str = "numerical"
     """Who computes the torques."""
+
+
+class ElevationGrid(NamedTuple):
+    """Heights on a grid, as feet and kernels read them (`ground.elevation`); no nodes: nothing is known."""
+
+    place: np.ndarray
+    """`(3,)` x, y of the first node, spacing [m]."""
+    heights: np.ndarray
+    """`(rows, columns)` of the ground [m]; rows along y."""
+    edges: np.ndarray
+    """`(rows, columns)` 1 where an edge is too near for a foot, else 0."""
+
+
+@runtime_checkable
+class Elevation(Protocol):
+    """Heights at places: a scene, or what a robot remembers of one."""
+
+    def height(self, x: Any, y: Any) -> Any:
+        """Height of the ground at places x, y [m], arrays of one shape; NaN where it is not known."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class GroundMap:
+    """What is known of the ground; a known scene is a map that is full from the start.
+
+    Made by `perception`, handed to navigation, skills, gait and control. Never changed: who learns more of
+    the ground makes a new one.
+    """
+
+    bounds: tuple[float, float, float, float]
+    """x_min, y_min, x_max, y_max of the field [m]: robots stay inside."""
+    obstacles: tuple[Float[np.ndarray, "corners 2"], ...]
+    """Outlines of what is too high to step on, seen from above, world x, y [m]."""
+    elevation: Elevation | None
+    """For eyes; `None` for a robot that does not look."""
+    footholds: ElevationGrid
+    """For feet."""
+    step: float
+    """A sudden rise by more than this is an obstacle [m]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,15 +151,12 @@ class Route:
     """Length of what is left, from where the robot is [m]."""
     speed: float | None
     """Wished speed [m/s]."""
-    driver: str
     arrived: bool = False
     """Whether the robot has come to its goal."""
     no_way: str | None = None
     """Why there is no path to the goal, as a sentence."""
     ahead: Scan | None = None
     """The ground ahead; `None` where nobody looked."""
-    travelled: frozenset[tuple[int, int]] = frozenset()
-    """Where this trip has been, as cells of a grid."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,8 +182,9 @@ class SkillCall:
     """Commanded velocity, forward and left, in the robot's heading frame [m/s]."""
     turn: float
     """Commanded yaw rate [rad/s]."""
-    driver: str
-    because: str
+    driver: str = ""
+    """Who computes the torques; empty: as the mission says."""
+    because: str = ""
     """Why this skill, as a sentence."""
     halt: str | None = None
     """Why the robot must not go on, as a sentence."""
@@ -147,8 +192,9 @@ class SkillCall:
     """Working memory after this choice: what rules added and have not deleted."""
 
 
+@packed
 @dataclass(frozen=True, slots=True)
-class MotionTarget:
+class MotionTarget(Packed):
     """Which angles: what the body, the feet and the joints should do now."""
 
     phase: float
@@ -178,20 +224,57 @@ class MotionTarget:
 
 
 @dataclass(frozen=True, slots=True)
-class Torques:
-    """How hard: joint torques, and the foot forces they rest on."""
+class Posture:
+    """Where a plant without mechanics puts the robot: all that there is to move it by."""
+
+    position_w: Float[np.ndarray, "3"]
+    rotation_wb: Float[np.ndarray, "3 3"]
+    """Base origin and orientation."""
+    q: Float[np.ndarray, "legs 3"]
+    """Joint angles [rad]."""
+    stance: Bool[np.ndarray, "legs"]
+    """Legs whose feet are on the ground."""
+
+
+@dataclass(frozen=True, slots=True)
+class MotorCommand:
+    """How hard: what every motor is told, as drives of legged robots want it, and what it rests on.
+
+    A motor gives τ + k_p (q − q_now) + k_d (q̇ − q̇_now), within its limit; where no gains are set, τ.
+    """
 
     tau: Float[np.ndarray, "legs 3"]
     """Joint torques [N·m], within the robot's limits."""
     forces_w: Float[np.ndarray, "legs 3"]
     """Intended ground forces on the feet [N]; zero in swing."""
-    residual: float
+    residual: float = 0.0
     """Part of the wanted wrench that the feet cannot give, as a share of the weight."""
     status: str = "solved"
     """`solved`, or why not, as a sentence."""
+    q: Float[np.ndarray, "legs 3"] | None = None
+    """Joint angles to hold [rad]; with `kp`."""
+    qd: Float[np.ndarray, "legs 3"] | None = None
+    """Joint rates to hold [rad/s]; with `kd`."""
+    kp: Float[np.ndarray, "legs 3"] | None = None
+    """Stiffness [N·m/rad]."""
+    kd: Float[np.ndarray, "legs 3"] | None = None
+    """Damping [N·m·s/rad]."""
     prices: Float[np.ndarray, "legs limits"] | None = None
     """What each limit of each foot costs (`control.forces`, in words by `control.certificate`)."""
-    basis: Float[np.ndarray, "hints"] | None = None
-    """Where a linear program may start at the next tick."""
-    follows: MotionTarget | None = None
-    """The motion that a driver without mechanics follows; a plant without mechanics puts the robot there."""
+    posture: Posture | None = None
+    """For a plant without mechanics; drivers that solve a robot's dynamics leave it out."""
+
+    def torques(
+        self, q: Float[np.ndarray, "legs 3"], qd: Float[np.ndarray, "legs 3"]
+    ) -> Float[np.ndarray, "legs 3"]:
+        """What the motors give where the joints are [N·m], before their limits."""
+        tau = self.tau
+        if self.kp is not None and self.q is not None:
+            tau = tau + self.kp * (self.q - q)
+        if self.kd is not None:
+            tau = tau + self.kd * ((0.0 if self.qd is None else self.qd) - qd)
+        return tau
+
+
+Torques = MotorCommand
+"""The name of a motor command before motors could be told more than a torque."""

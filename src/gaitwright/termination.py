@@ -1,4 +1,4 @@
-"""When a trip is over, and why, in one sentence: an arrival, a fall, a fault, or the end of the time."""
+"""When a run is over, and why, in one sentence: an arrival, a fall, a fault, or the end of the time."""
 
 import math
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import GRAVITY
-from gaitwright.signals import MotionTarget, Route, Sensed, SkillCall, Torques
+from gaitwright.signals import MotionTarget, MotorCommand, Route, Sensed, SkillCall
 from gaitwright.skills.library import REFERENCE_HEIGHT
 
 TIPPED = math.cos(math.radians(60))
@@ -27,9 +27,13 @@ REST = 0.3
 """A robot that has stood still at its goal for this long [s] has arrived."""
 
 
+sensed_fields = Sensed.layout.views()
+normal_of, feet_of, stance_of = (MotionTarget.layout.field(name) for name in ("normal_w", "feet_w", "stance"))
+
+
 @dataclass(frozen=True, slots=True)
-class Verdict:
-    """Why a trip ends."""
+class Ending:
+    """Why a run ends."""
 
     because: str
     arrived: bool = False
@@ -37,13 +41,15 @@ class Verdict:
 
 
 @kernel
-def vital_signs(orientation, position, velocity, normal, feet_w, load, stance, tau):
-    """What a watch looks at, as plain numbers.
+def vital_signs(seen, asked, tau):
+    """What decides whether a run goes on, as plain numbers, from the rows of a `Sensed` and a `MotionTarget`.
 
     Cosine of the lean from the ground's normal; height over the lowest foot [m]; speed over ground [m/s];
     whether a foot is loaded; whether all feet are down; whether every torque is a number.
     """
+    _, position, orientation, velocity, _, _, _, load = sensed_fields(seen)
     w, x, y, z = orientation
+    normal, feet_w = normal_of(asked), feet_of(asked)
     up_x, up_y, up_z = 2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)
     lean = up_x * normal[0] + up_y * normal[1] + up_z * normal[2]
     return (
@@ -51,15 +57,15 @@ def vital_signs(orientation, position, velocity, normal, feet_w, load, stance, t
         position[2] - feet_w[:, 2].min(),
         math.hypot(velocity[0], velocity[1]),
         load.max() > 0.0,
-        stance.all(),
+        stance_of(asked).all(),
         math.isfinite(tau.sum()),
     )
 
 
-class Watch:
-    """Follows one trip of a robot in a scene with `bounds` (x_min, y_min, x_max, y_max) [m].
+class Termination:
+    """Follows one run of a robot in a scene with `bounds` (x_min, y_min, x_max, y_max) [m].
 
-    The trip begins at time `begins` and may last `seconds`.
+    The run begins at time `begins` and may last `seconds`.
     """
 
     def __init__(
@@ -73,74 +79,70 @@ class Watch:
         self.pace = math.sqrt(GRAVITY * robot.height)
         self.patience = STUCK * math.sqrt(robot.height / REFERENCE_HEIGHT)
         self.air_limit = AIRBORNE / robot.natural_frequency
-        self.standing_since = self.grounded_at = self.fed_at = self.progress_at = begins
+        self.grounded_at = self.fed_at = begins
+        self.set_out(begins)
+
+    def set_out(self, now: float) -> None:
+        """A mission begins: neither progress nor rest was seen yet."""
+        self.standing_since = self.progress_at = now
         self.nearest = math.inf
 
     def judge(
-        self, sensed: Sensed, route: Route, call: SkillCall, target: MotionTarget, torques: Torques
-    ) -> Verdict | None:
-        """Why the trip ends with this tick, or `None` where it goes on."""
-        lean, over_feet, speed, grounded, all_down, finite = vital_signs(
-            sensed.orientation_wb,
-            sensed.position_w,
-            sensed.velocity_w,
-            target.normal_w,
-            target.feet_w,
-            sensed.load,
-            target.stance,
-            torques.tau,
-        )
+        self, sensed: Sensed, route: Route, call: SkillCall, target: MotionTarget, command: MotorCommand
+    ) -> Ending | None:
+        """Why the run ends with this tick, or `None` where it goes on."""
+        lean, over_feet, speed, grounded, all_down, finite = vital_signs(sensed.row, target.row, command.tau)
         now = sensed.time
         if not finite:
-            return Verdict(f"a torque is not a number at {now:.3f} s: motors stopped")
+            return Ending(f"a torque is not a number at {now:.3f} s: motors stopped")
         fault = (
             self.fallen(now, lean, over_feet)
             or self.outside(sensed)
-            or self.unsupported(now, grounded, torques.status)
+            or self.unsupported(now, grounded, command.status)
             or self.stuck(route, sensed)
         )
         if fault:
             return fault
         if route.no_way:
-            return Verdict(f"there is no way to the goal: {route.no_way}")
+            return Ending(f"there is no way to the goal: {route.no_way}")
         if not ((route.arrived or call.halt) and all_down and speed < STILL * self.pace):
             self.standing_since = now
         if now - self.standing_since > REST:
-            arrival = Verdict("arrived at the goal", arrived=True)
-            return arrival if route.arrived else Verdict(f"stopped: {call.halt}")
+            arrival = Ending("arrived at the goal", arrived=True)
+            return arrival if route.arrived else Ending(f"stopped: {call.halt}")
         return self.out_of_time(route) if now >= self.ends - 1e-9 else None
 
-    def fallen(self, now: float, lean: float, over_feet: float) -> Verdict | None:
+    def fallen(self, now: float, lean: float, over_feet: float) -> Ending | None:
         """A body that leans too far or lies too low."""
         if lean < TIPPED:
             degrees = math.degrees(math.acos(max(-1.0, lean)))
-            return Verdict(f"fell: the body leaned {degrees:.0f}° at {now:.2f} s", fell=True)
+            return Ending(f"fell: the body leaned {degrees:.0f}° at {now:.2f} s", fell=True)
         if over_feet < SUNK * self.robot.stand:
             sentence = f"fell: the body sank to {over_feet:.2f} m over its feet at {now:.2f} s"
-            return Verdict(sentence, fell=True)
+            return Ending(sentence, fell=True)
         return None
 
-    def outside(self, sensed: Sensed) -> Verdict | None:
+    def outside(self, sensed: Sensed) -> Ending | None:
         """A robot that has left the scene."""
         x, y = float(sensed.position_w[0]), float(sensed.position_w[1])
         x_min, y_min, x_max, y_max = self.bounds
         if x_min <= x <= x_max and y_min <= y <= y_max:
             return None
-        return Verdict(f"left the scene at ({x:.2f}, {y:.2f}) after {sensed.time:.2f} s")
+        return Ending(f"left the scene at ({x:.2f}, {y:.2f}) after {sensed.time:.2f} s")
 
-    def unsupported(self, now: float, grounded: bool, status: str) -> Verdict | None:
+    def unsupported(self, now: float, grounded: bool, status: str) -> Ending | None:
         """A lost contact, or forces that could not be found for too long."""
         if grounded:
             self.grounded_at = now
         if status.startswith("solved"):
             self.fed_at = now
         if now - self.grounded_at > self.air_limit:
-            return Verdict(f"lost contact: no foot has touched the ground since {self.grounded_at:.2f} s")
+            return Ending(f"lost contact: no foot has touched the ground since {self.grounded_at:.2f} s")
         if now - self.fed_at > OVERLOADED:
-            return Verdict(f"{status} (since {self.fed_at:.2f} s)")
+            return Ending(f"{status} (since {self.fed_at:.2f} s)")
         return None
 
-    def stuck(self, route: Route, sensed: Sensed) -> Verdict | None:
+    def stuck(self, route: Route, sensed: Sensed) -> Ending | None:
         """A mission that makes no progress."""
         if not route.path or route.arrived:
             return None
@@ -149,10 +151,10 @@ class Watch:
         if sensed.time - self.progress_at <= self.patience:
             return None
         x, y = sensed.position_w[:2]
-        return Verdict(f"stuck: no progress for {self.patience:.0f} s at ({x:.2f}, {y:.2f})")
+        return Ending(f"stuck: no progress for {self.patience:.0f} s at ({x:.2f}, {y:.2f})")
 
-    def out_of_time(self, route: Route) -> Verdict:
+    def out_of_time(self, route: Route) -> Ending:
         """The end of the time, and how far it is still."""
         if not route.path:
-            return Verdict(f"the {self.seconds:g} s asked for are over")
-        return Verdict(f"out of time after {self.seconds:g} s, {route.remaining:.2f} m before the goal")
+            return Ending(f"the {self.seconds:g} s asked for are over")
+        return Ending(f"out of time after {self.seconds:g} s, {route.remaining:.2f} m before the goal")

@@ -10,10 +10,10 @@ from hypothesis.extra.numpy import arrays
 
 from gaitwright.assess.motor_requirements import (
     BRIEF,
-    Needs,
+    MotorRequirements,
     fastest_supported,
     lasting,
-    needs,
+    motor_requirements,
     shortage,
     spare_length,
     too_wide,
@@ -21,13 +21,16 @@ from gaitwright.assess.motor_requirements import (
 from gaitwright.description.load import load_robot
 from gaitwright.errors import WrongUse
 from gaitwright.gait.desired_cycle import Manner, desired_cycle
+from gaitwright.gait.leg_cycles.files import load_cycle
+from gaitwright.gait.leg_cycles.leg_cycle import LegCycle
 from gaitwright.ground.scene import load_scene
 from gaitwright.locomotion import Brain
 from gaitwright.model.reach import reach
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY
 from gaitwright.plant.registry import make_plant
-from gaitwright.record.recording import Recording, walk
+from gaitwright.record.recording import Recording
+from gaitwright.session import walk
 from gaitwright.signals import Mission
 from gaitwright.skills.chooser import fixed_skill
 from gaitwright.skills.library import LIBRARY, find_skill, gait_of, skill_names, speed_scale
@@ -43,8 +46,8 @@ def weakened(robot: Robot, share: float) -> Robot:
     return replace(robot, tau_max=robot.tau_max * share)
 
 
-def of(name: str, speed: float, robot: Robot = GO2) -> Needs:
-    return needs(robot, gait(name, robot), (speed, 0.0))
+def of(name: str, speed: float, robot: Robot = GO2) -> MotorRequirements:
+    return motor_requirements(robot, gait(name, robot), (speed, 0.0))
 
 
 # --- laws ------------------------------------------------------------------------------------------
@@ -91,6 +94,17 @@ def test_a_lasting_torque_is_the_least_one_exceeded_only_briefly(tau: np.ndarray
             lower = chosen[chosen[:, joint] < found[leg, joint], joint]
             if len(lower):
                 assert (chosen[:, joint] > lower.max()).mean() > BRIEF
+
+
+def test_a_foot_that_is_swung_higher_needs_faster_joints():
+    """`climb` walks as `descend` does, but lifts its feet 0.28 in place of 0.2 body heights."""
+    high, low = of("climb", 0.2), of("descend", 0.2)
+    assert (high.rate[:, 2] > 1.1 * low.rate[:, 2]).all()
+    given_one = motor_requirements(GO2, gait("descend"), (0.2, 0.0), cycle=load_cycle("climb"))
+    np.testing.assert_array_equal(given_one.rate, high.rate)
+    kick = LegCycle("kick", ((0.0, -0.5, 0.0), (0.3, -0.3, 0.5), (0.7, 0.3, 0.9), (1.0, 0.5, 0.0)))
+    told = shortage(GO2, gait("walk"), (0.2, 0.0), cycle=kick)
+    assert told is not None and "at the hip 2 of" in told
 
 
 # --- oracles ---------------------------------------------------------------------------------------
@@ -174,11 +188,11 @@ def test_the_fastest_speed_is_where_something_is_missing(share: float):
     assert np.isnan(fastest_supported(weakened(GO2, 0.05), skill).speed)
 
 
-def test_every_skill_of_every_robot_has_needs():
+def test_every_skill_of_every_robot_has_requirements():
     for name in ("go2", "thesis", "hexapod"):
         robot = load_robot(name)
         for skill in skill_names(robot.n):
-            found = needs(
+            found = motor_requirements(
                 robot, gait(skill, robot), (0.3 * find_skill(skill, robot).speed * speed_scale(robot), 0.0)
             )
             assert np.isfinite([found.load, found.reach.min(), found.room.min(), found.rate.max()]).all()

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from gaitwright import bench
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.evidence import random_schools, rule_decisions, rule_lessons
 from gaitwright.bench.evidence.clips_text import constructs, loops, symbols
 from gaitwright.bench.evidence.random_schools import RandomSchool, School, decided, share_firm, share_right
@@ -21,9 +21,9 @@ from gaitwright.knowledge.modifier import audit
 
 
 @pytest.fixture
-def session():
-    with Workers(1) as workers, Session(workers, quick=True) as session:
-        yield session
+def context():
+    with Workers(1) as workers, Context(workers, quick=True) as context:
+        yield context
 
 
 @pytest.fixture
@@ -124,10 +124,10 @@ def test_replays_come_true():
     assert False not in came and True in came
 
 
-def test_without_peers_their_figures_are_not_measured(session, no_peer, monkeypatch):
+def test_without_peers_their_figures_are_not_measured(context, no_peer, monkeypatch):
     monkeypatch.setattr(rule_decisions, "QUICK_SITUATIONS", 30)
     monkeypatch.setattr(rule_decisions, "QUICK_ROUNDS", 2)
-    figures = {figure.what: figure for figure in rule_decisions.decisions(session)}
+    figures = {figure.what: figure for figure in rule_decisions.decisions(context)}
     ours = figures["decision, 14 rules × 12 trees: compiled, in a loop"]
     assert 0.0 < ours.measured < 1000.0 and ours.wanted is not None
     theirs = [figure for what, figure in figures.items() if "CLIPS" in what]
@@ -136,27 +136,27 @@ def test_without_peers_their_figures_are_not_measured(session, no_peer, monkeypa
         assert math.isnan(figure.measured) and figure.note == "clips is not installed here"
 
 
-def test_learning_and_corrections_are_measured(session, no_peer, monkeypatch, tmp_path):
+def test_learning_and_corrections_are_measured(context, no_peer, monkeypatch, tmp_path):
     small = [RandomSchool(5, rules=5, trees=5)]
     monkeypatch.setattr(rule_lessons, "schools", lambda _: small)
     monkeypatch.setattr(rule_lessons, "PER_SKILL", 2)
-    taught = rule_lessons.pupils(session)
-    right, firm, more = rule_lessons.learning(session, taught)
+    taught = rule_lessons.pupils(context)
+    right, firm, more = rule_lessons.learning(context, taught)
     book, school = taught[0].book, small[0]
     exam = [(situation, school.right(situation)) for situation in school.held_out(1, 300)]
     assert right.measured == pytest.approx(100.0 * share_right(book, exam), abs=10.0)
     assert 50.0 < right.measured < 75.0 and firm.measured == pytest.approx(100.0 * share_firm(book))
     assert math.isnan(more.measured) and more.note == "sklearn is not installed here"
-    mended, broken, time = rule_lessons.corrections(session, taught)
+    mended, broken, time = rule_lessons.corrections(context, taught)
     assert mended.starts > 0 and mended.measured > 80.0 and broken.measured < 30.0
     assert time.measured > 0.0 and time.unit == "ms"
     rule_lessons.store(taught[0].book, tmp_path)
     assert loads((tmp_path / "book.json").read_bytes()) == taught[0].book
 
 
-def test_a_pupil_without_faults_is_no_measured_correction(session, school):
+def test_a_pupil_without_faults_is_no_measured_correction(context, school):
     perfect = rule_lessons.Pupil(school, school.truth, ())
-    figures = list(rule_lessons.corrections(session, [perfect]))
+    figures = list(rule_lessons.corrections(context, [perfect]))
     assert len(figures) == 3
     for figure in figures:
         assert figure.measured_text == "not measured" and figure.reached is not True

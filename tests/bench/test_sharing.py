@@ -8,7 +8,7 @@ import pytest
 
 from gaitwright.bench.claims import jumps, sharing
 from gaitwright.bench.claims.tick import run_rounds
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.evidence import agreement
 from gaitwright.bench.evidence.agreement import KINDS, Tally, weakened
 from gaitwright.bench.evidence.gaits import GAITS, loads
@@ -20,9 +20,9 @@ from gaitwright.numerics.status import INFEASIBLE, SOLVED
 
 
 @pytest.fixture(scope="module")
-def session() -> Iterator[Session]:
-    with Workers(1) as workers, Session(workers, quick=True) as session:
-        yield session
+def context() -> Iterator[Context]:
+    with Workers(1) as workers, Context(workers, quick=True) as context:
+        yield context
 
 
 @pytest.fixture(scope="module")
@@ -37,8 +37,8 @@ def few() -> list[Task]:
 
 
 # --- agreement -------------------------------------------------------------------------------------
-def test_other_solvers_agree_on_loads_of_real_gaits(session, few):
-    figures = list(agreement.agreement(session, [*few, *few]))
+def test_other_solvers_agree_on_loads_of_real_gaits(context, few):
+    figures = list(agreement.agreement(context, [*few, *few]))
     assert len(figures) == 6
     assert all(figure.reached and figure.starts == 2 * len(few) for figure in figures)
     seen = figures[1].numbers["outcomes"]
@@ -76,18 +76,18 @@ def test_a_wrong_value_or_verdict_is_counted(ours, theirs, difference):
     assert worst.reached is (difference != 2e-7)
 
 
-def test_without_other_solvers_nothing_is_claimed(session, few, monkeypatch):
+def test_without_other_solvers_nothing_is_claimed(context, few, monkeypatch):
     monkeypatch.setattr(agreement, "missing", lambda: "quadprog is not installed")
-    figures = list(agreement.agreement(session, few))
+    figures = list(agreement.agreement(context, few))
     assert [figure.measured_text for figure in figures] == ["not measured"] * 3
     assert not any(figure.reached for figure in figures)
 
 
 # --- times and jumps -------------------------------------------------------------------------------
-def test_every_way_solves_every_tick_of_a_trot(session, trot):
+def test_every_way_solves_every_tick_of_a_trot(context, trot):
     moments = trot.moments(60)
     ticks = [sharing.Tick(way, trot.brain.robot, moments) for way in sharing.WAYS]
-    rounds = run_rounds(session, ticks)
+    rounds = run_rounds(context, ticks)
     assert all(set(times) == {tick.name for tick in ticks} for times in rounds)
     assert all((times[tick.name] > 0.0).all() for times in rounds for tick in ticks)
     assert {tick.about() for tick in ticks} == {"every tick solved"}

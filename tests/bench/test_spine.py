@@ -13,24 +13,24 @@ import pytest
 from gaitwright import bench
 from gaitwright.bench.claims import walks
 from gaitwright.bench.claims.walks import Walk, measure_walks
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.evidence.children import can_measure, measured
 from gaitwright.bench.measurement import Figure, at_least, at_most, count
-from gaitwright.bench.trial import DT, Push, Pusher, Trial, brain_for, robot_named, simulate
+from gaitwright.bench.trial import Trial, brain_for, robot_named, simulate
 from gaitwright.bench.workers import Workers
 from gaitwright.errors import WrongUse
 from gaitwright.ground.scene import load_scene
 from gaitwright.plant.mujoco.simulation import MujocoPlant
-from gaitwright.record.recording import walk
+from gaitwright.session import DT, Push, Session
 from gaitwright.signals import Mission
 
 SHORT = Walk("go2", "trot", 0.4, seconds=2.0, starts=1, roll=2.5)
 
 
 @pytest.fixture(scope="module")
-def session() -> Iterator[Session]:
-    with Workers(2) as workers, Session(workers) as session:
-        yield session
+def context() -> Iterator[Context]:
+    with Workers(2) as workers, Context(workers) as context:
+        yield context
 
 
 # --- figures ---------------------------------------------------------------------------------------
@@ -55,22 +55,22 @@ def test_a_count_wants_whole_starts():
 
 
 # --- walks -----------------------------------------------------------------------------------------
-def test_a_walk_is_measured_for_real(session):
-    falls, roll = measure_walks(session, [SHORT])
+def test_a_walk_is_measured_for_real(context):
+    falls, roll = measure_walks(context, [SHORT])
     assert (falls.measured, falls.starts, falls.reached) == (1, 1, True)
     assert falls.numbers["each"][0]["stopped_because"] == "the 2 s asked for are over"
     assert 0.0 < roll.measured < 2.5
 
 
-def test_an_error_is_not_made_up_where_the_gait_was_not_steady(session):
-    _, error = measure_walks(session, [replace(SHORT, seconds=1.0, velocity=0.02, roll=None)])
+def test_an_error_is_not_made_up_where_the_gait_was_not_steady(context):
+    _, error = measure_walks(context, [replace(SHORT, seconds=1.0, velocity=0.02, roll=None)])
     assert error.measured_text == "not measured"
     assert error.reached is False
 
 
-def test_outcomes_do_not_depend_on_the_number_of_workers(session):
+def test_outcomes_do_not_depend_on_the_number_of_workers(context):
     trials = [Trial("go2", "rough:0.03", 0.4, seed, speed=0.4) for seed in (0, 1, 2)]
-    side_by_side = [o.report.state_hash for o in session.outcomes("hashes", trials)]
+    side_by_side = [o.report.state_hash for o in context.outcomes("hashes", trials)]
     assert side_by_side == [simulate(trial).report.state_hash for trial in trials]
     assert len(set(side_by_side)) == 3
 
@@ -80,13 +80,9 @@ def test_a_push_has_its_impulse_and_its_phase(phase):
     trial = Trial("go2", "flat", 1.5, 0, speed=0.4)
     robot, scene = robot_named("go2"), load_scene("flat")
     plant = MujocoPlant(robot, scene, DT)
-    pusher, seen = Pusher(plant, plant.robot, Push(0.6, 90.0, after=0.7, phase=phase)), []
-
-    def watch(lap) -> None:
-        pusher(lap)
-        seen.append((lap.target.phase, *plant.data.xfrc_applied[1, :3]))
-
-    walk(brain_for(trial, robot, scene), plant, Mission(()), trial.seconds, trial.seed, watch=watch)
+    session = Session(brain_for(trial, robot, scene), plant, Mission(()), trial.seconds, trial.seed)
+    session.push(Push(0.6, 90.0, at=0.7, phase=phase))
+    seen = [(lap.target.phase, *plant.data.xfrc_applied[1, :3]) for lap in session]
     table = np.array(seen)
     force = np.linalg.norm(table[:, 1:], axis=1)
     assert force.sum() * DT == pytest.approx(0.6 * robot.total_mass, rel=0.02)
@@ -104,7 +100,7 @@ def test_an_unknown_name_is_told_with_what_there_is():
 
 def test_names_choose_claims_and_groups():
     assert bench.claims_named(["tick", "walks"]) == [("spine", "walks"), ("spine", "tick")]
-    assert bench.claims_named([*bench.GROUPS, "tick"]) == bench.claims([])
+    assert bench.claims_named([*bench.GROUPS, "tick"]) == bench.claims_named([])
 
 
 def test_the_exit_code_tells_of_a_missed_figure(monkeypatch, tmp_path, capsys):
@@ -131,7 +127,7 @@ def test_json_on_the_standard_output_is_alone_there(monkeypatch, capsys):
 
 
 def test_an_interrupt_keeps_what_was_finished(monkeypatch, tmp_path, capsys):
-    def measure(session):
+    def measure(context):
         yield Figure("finished", 1.0, "", at_most(2.0))
         raise KeyboardInterrupt
 

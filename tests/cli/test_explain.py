@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from gaitwright.cli import main
-from gaitwright.cli.explain_text import told_history
+from gaitwright.cli.explain_text import history_lines
 from gaitwright.cli.situation_args import asked, last_lessons, said, whatever
 from gaitwright.knowledge.consult import consult
 from gaitwright.knowledge.correction import teach
@@ -44,7 +44,7 @@ def taught() -> Rulebook:
     ):
         kind = "commission" if k == 3 else "omission"
         lesson = Lesson(kind, rule, situation, f"lap {k}", blame=blame, action=Action(rule))
-        book = (learn if k == 3 else teach)(book, lesson).book
+        book = (learn if k == 3 else teach)(book, lesson).rulebook
     return book
 
 
@@ -92,7 +92,7 @@ def test_a_book_without_rules_says_so(capsys, book):
 
 def test_a_rule_nobody_has_seen_right_does_not_fire(capsys, book):
     lesson = Lesson("commission", "hop", at(), action=Action("hop"))
-    Path(book).write_bytes(dumps(learn(BOOK, lesson).book))
+    Path(book).write_bytes(dumps(learn(BOOK, lesson).rulebook))
     assert "hop empty 0 1 does not fire yet: nobody has seen it right" in explained(capsys)
 
 
@@ -106,7 +106,7 @@ def test_the_history_has_a_line_for_each_lesson(capsys):
     told = explained(capsys, "--history", "run")
     assert "lap 1: run is new: nothing in the rulebook did this; its lower marks were set where" in told
     assert "lap 3: the upper mark in speed went from any to fast: run was wrong at speed slow." in told
-    assert figures(capsys, "--history", "run")["history"] == told_history(BOOK, "run")
+    assert figures(capsys, "--history", "run")["history"] == history_lines(BOOK, "run")
 
 
 # --- a decision ------------------------------------------------------------------------------------

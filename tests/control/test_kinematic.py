@@ -16,7 +16,8 @@ from gaitwright.ground.scene import load_scene
 from gaitwright.locomotion import Brain, Controller
 from gaitwright.model.robot import Robot
 from gaitwright.plant.mujoco.simulation import MujocoPlant
-from gaitwright.record.recording import Recording, walk
+from gaitwright.record.recording import Recording
+from gaitwright.session import walk
 from gaitwright.signals import Mission
 from gaitwright.skills.chooser import fixed_skill
 from gaitwright.skills.library import LIBRARY, find_skill, gait_of, speed_scale
@@ -62,10 +63,10 @@ def test_where_all_is_as_wanted_nothing_pulls(name: str) -> None:
     for i in range(0, cycle.steps, 5):
         target, sensed = cycle.target(i), cycle.sensed(i)
         np.testing.assert_allclose(wanted_rates(cycle.robot, target), cycle.qd[i], atol=1e-9)
-        torques = KinematicController(cycle.robot).torques(target, sensed)
+        torques = KinematicController(cycle.robot).command(target, sensed)[0]
         np.testing.assert_allclose(torques.tau / cycle.robot.tau_max, 0.0, atol=1e-9)
         assert torques.status.startswith("solved") and torques.residual == 0.0
-        assert torques.follows is target and not torques.forces_w.any()
+        assert torques.posture is not None and torques.posture.q is target.q and not torques.forces_w.any()
 
 
 @given(seeds, st.integers(0, 3), st.integers(0, 2))
@@ -75,7 +76,7 @@ def test_each_joint_is_pulled_towards_its_own_angle_and_no_limit_is_passed(seed,
     robot, sensed = cycle.robot, cycle.sensed(3)
     off = np.zeros((4, 3))
     off[leg, joint] = np.random.default_rng(seed).uniform(-1.0, 1.0)
-    tau = KinematicController(robot).torques(cycle.target(3), replace(sensed, q=sensed.q + off)).tau
+    tau = KinematicController(robot).command(cycle.target(3), replace(sensed, q=sensed.q + off))[0].tau
     stiffness = STIFF.stiffness * robot.total_mass * 9.81 * robot.height
     expected = np.clip(-stiffness * off, -robot.tau_max, robot.tau_max)
     np.testing.assert_allclose(tau, expected, atol=1e-6)
@@ -88,14 +89,14 @@ def test_what_is_no_number_gives_no_numbers(field: str) -> None:
     broken = getattr(sensed, field).copy()
     broken.flat[1] = np.nan
     for controller in (KinematicController(cycle.robot), programme(cycle)):
-        torques = controller.torques(cycle.target(0), replace(sensed, **{field: broken}))
+        torques = controller.command(cycle.target(0), replace(sensed, **{field: broken}))[0]
         assert np.isnan(torques.tau).all() and torques.status == NO_NUMBER
 
 
 def test_a_target_that_is_no_number_gives_none() -> None:
     cycle = cycle_of(robot_called("go2"), "walk")
     target = replace(cycle.target(0), q=np.full((4, 3), np.nan))
-    assert np.isnan(KinematicController(cycle.robot).torques(target, cycle.sensed(0)).tau).all()
+    assert np.isnan(KinematicController(cycle.robot).command(target, cycle.sensed(0))[0].tau).all()
 
 
 # --- programmes ------------------------------------------------------------------------------------
@@ -104,7 +105,7 @@ def test_a_programme_plays_its_table_whatever_is_sensed() -> None:
     controller = programme(cycle)
     assert isinstance(controller, Controller)
     for i in (0, 17, 63):
-        follows = controller.torques(cycle.target(i), cycle.sensed((i + 9) % 64)).follows
+        follows = controller.command(cycle.target(i), cycle.sensed((i + 9) % 64))[0].posture
         assert follows is not None
         np.testing.assert_allclose(follows.q, cycle.q[i], atol=1e-12)
         np.testing.assert_array_equal(follows.stance, cycle.stance[i])

@@ -268,7 +268,7 @@ def test_torque_limits_hold_for_absurd_targets(method: str, seed: int, magnitude
     s = moving(robot, rng)
     stance = rng.random(4) < 0.6
     target = anything(robot, s, stance, rng, 10.0**magnitude)
-    torques = NumericalController(robot, method).torques(target, s)
+    torques = NumericalController(robot, method).command(target, s)[0]
     assert (np.abs(torques.tau) <= robot.tau_max).all()
     assert (torques.forces_w[~stance] == 0.0).all()
     assert np.isfinite(torques.forces_w).all() and np.isfinite(torques.residual)
@@ -282,7 +282,7 @@ def test_torques_belong_to_their_forces(method: str, rng: np.random.Generator) -
     target = replace(
         anything(robot, s, np.ones(4, dtype=bool), rng, much=0.002), rotation_wb=hold(robot, s).rotation_wb
     )
-    torques = NumericalController(robot, method).torques(target, s)
+    torques = NumericalController(robot, method).command(target, s)[0]
     assert torques.residual < LACKING, "the feet give all that is wanted"
     load = demanded(robot, target, s)
     assert (np.abs(torques.tau) < robot.tau_max).all(), "no limit in play: the law is τ = free - push f"
@@ -297,7 +297,7 @@ def test_a_swinging_foot_goes_its_way_where_the_base_cannot(name: str, rng: np.r
         s = standing(robot)
         down = np.arange(robot.n) == rng.integers(robot.n)
         target = anything(robot, s, down, rng, much=0.02)
-        torques = NumericalController(robot).torques(target, s)
+        torques = NumericalController(robot).command(target, s)[0]
         load = demanded(robot, target, s)
         plain = load.free - np.einsum("lji,li->lj", load.push, torques.forces_w)
         assert torques.residual > 0.1
@@ -325,8 +325,8 @@ def test_standing_torques_balance_gravity(name: str, method: str) -> None:
     robot = robot_called(name)
     s = standing(robot)
     controller, target = NumericalController(robot, method), hold(robot, s)
-    torques = controller.torques(target, s)
-    torques = controller.torques(target, s, torques)
+    torques, memory = controller.command(target, s)
+    torques, memory = controller.command(target, s, memory)
     assert torques.status == "solved" and torques.residual < 1e-3
     arm = robot.stance - robot.foot_radius[:, None] * UP
     _, data = mujoco_forward(robot, s, torques.tau, arm, torques.forces_w)
@@ -340,9 +340,9 @@ def test_a_robot_stands_still_on_real_ground(name: str, method: str) -> None:
     robot = robot_called(name)
     plant = MujocoPlant(robot, load_scene("flat"))
     first = s = plant.reset(vary=False)
-    controller, target, torques = NumericalController(robot, method), hold(robot, s), None
+    controller, target, memory = NumericalController(robot, method), hold(robot, s), None
     for _ in range(300):
-        torques = controller.torques(target, s, torques)
+        torques, memory = controller.command(target, s, memory)
         s = plant.step(torques)
     assert np.abs(s.position_w - first.position_w).max() < 0.01 * robot.height
     assert np.linalg.norm(s.velocity_w) < 0.005 * np.sqrt(GRAVITY * robot.height)
@@ -355,7 +355,7 @@ def test_where_the_feet_cannot_carry_the_load_it_says_so_and_shares_evenly(metho
     lame = replace(robot, tau_max=1e-3 * robot.tau_max)
     s = standing(lame)
     s = replace(s, qd=s.qd + 10.0, angular_velocity_b=np.array([1.0, 2.0, 3.0]))
-    torques = NumericalController(lame, method).torques(hold(lame, s), s)
+    torques = NumericalController(lame, method).command(hold(lame, s), s)[0]
     assert torques.status.startswith("these feet cannot carry this load")
     assert re.search(r"(FL|FR|RL|RR), (hip 1|hip 2|knee), 0\.0\d+ N·m$|of (FL|FR|RL|RR)$", torques.status)
     np.testing.assert_allclose(
@@ -368,7 +368,7 @@ def test_where_the_feet_cannot_carry_the_load_it_says_so_and_shares_evenly(metho
 def test_with_no_foot_down_nothing_is_pushed(method: str) -> None:
     robot = robot_called("dog")
     s = standing(robot)
-    torques = NumericalController(robot, method).torques(hold(robot, s, np.zeros(4, dtype=bool)), s)
+    torques = NumericalController(robot, method).command(hold(robot, s, np.zeros(4, dtype=bool)), s)[0]
     assert not torques.forces_w.any() and torques.residual == 0.0 and torques.status == "solved"
 
 

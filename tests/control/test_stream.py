@@ -12,9 +12,10 @@ from gaitwright.control.stream import CHUNK, Efforts, Job, stream
 from gaitwright.control.thesis_program import LinearSettings
 from gaitwright.errors import WrongUse
 from gaitwright.ground.scene import load_scene
-from gaitwright.locomotion import Brain, Lap, trip
+from gaitwright.locomotion import Brain, Lap
 from gaitwright.model.robot import Robot
 from gaitwright.plant.mujoco.simulation import MujocoPlant
+from gaitwright.session import Session
 from gaitwright.signals import Mission, Torques
 from gaitwright.skills.chooser import fixed_skill
 from oracles import robot_called
@@ -23,7 +24,7 @@ from oracles import robot_called
 def laps(name: str, skill: str, speed: float, seconds: float) -> list[Lap]:
     robot, scene = robot_called(name), load_scene("flat")
     brain = Brain.of(robot, scene, fixed_skill(robot, skill, speed, 0.0, 0.0, "numerical"))
-    return list(trip(brain, MujocoPlant(robot, scene), Mission(()), seconds))
+    return list(Session(brain, MujocoPlant(robot, scene), Mission(()), seconds))
 
 
 def job_of(robot: Robot, walked: list[Lap]) -> Job:
@@ -31,9 +32,10 @@ def job_of(robot: Robot, walked: list[Lap]) -> Job:
 
 
 def tick_by_tick(robot: Robot, walked: list[Lap], method: str) -> list[Torques]:
-    controller, done = NumericalController(robot, method), []
+    controller, done, memory = NumericalController(robot, method), [], None
     for lap in walked:
-        done.append(controller.torques(lap.target, lap.sensed, done[-1] if done else None))
+        command, memory = controller.command(lap.target, lap.sensed, memory)
+        done.append(command)
     return done
 
 
@@ -121,11 +123,11 @@ def test_no_moments_give_no_torques() -> None:
 def test_a_weak_knee_is_named_with_its_limit(trot: list[Lap]) -> None:
     dog = robot_called("dog")
     lap = next(lap for lap in trot[300:] if lap.target.stance.all())
-    strong = NumericalController(dog).torques(lap.target, lap.sensed)
+    strong = NumericalController(dog).command(lap.target, lap.sensed)[0]
     limits = dog.tau_max.copy()
     limits[2, 2] = 0.6 * abs(strong.tau[2, 2])
     weak = replace(dog, tau_max=limits)
-    torques = NumericalController(weak).torques(lap.target, lap.sensed)
+    torques = NumericalController(weak).command(lap.target, lap.sensed)[0]
     felt = felt_limits(weak, torques)
     sentence = f"foot RL at its torque limit: knee, {limits[2, 2]:.3g} N·m"
     assert abs(torques.tau[2, 2]) == pytest.approx(limits[2, 2])
@@ -138,7 +140,7 @@ def test_ice_is_felt_as_friction(trot: list[Lap]) -> None:
     dog = robot_called("dog")
     lap = trot[600]
     shove = replace(lap.target, acceleration_w=np.array([0.0, 14.0, 0.0]))
-    torques = NumericalController(dog).torques(shove, lap.sensed)
+    torques = NumericalController(dog).command(shove, lap.sensed)[0]
     down = [dog.legs[leg] for leg in np.flatnonzero(shove.stance)]
     sentences = [one.sentence for one in felt_limits(dog, torques)]
     assert any(

@@ -15,7 +15,6 @@ from gaitwright.dynamics.armstrong import (
     packed_accelerations,
     slow_coefficients,
 )
-from gaitwright.dynamics.leg import leg_at, leg_turns
 from gaitwright.dynamics.newton_euler import inverse_dynamics, links_motion
 from gaitwright.dynamics.tree import (
     Tree,
@@ -34,6 +33,7 @@ from gaitwright.dynamics.tree_laws import (
 )
 from gaitwright.errors import WrongUse
 from gaitwright.model.kinematics import feet
+from gaitwright.model.leg import leg_at, leg_turns
 from gaitwright.model.robot import Robot
 from oracles import NEEDS_PINOCCHIO, any_state, robot_called
 

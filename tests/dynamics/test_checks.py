@@ -93,7 +93,7 @@ def test_the_controllers_torques_close(name: str, rng: np.random.Generator) -> N
     """
     for _ in range(5):
         robot, s, target = standing(name, rng)
-        torques, wanted = NumericalController(robot).torques(target, s), wanted_by(robot, s, target)
+        torques, wanted = NumericalController(robot).command(target, s)[0], wanted_by(robot, s, target)
         check = closure(robot, s, torques.tau, torques.forces_w, wanted)
         assert check.worst < 10.0 * torques.residual, f"{check.sentence}; unmet {torques.residual}"
         push = np.concatenate([torques.forces_w, 0.0 * torques.forces_w], axis=1)

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from gaitwright.dynamics.leg import leg_at, leg_of, leg_turns
 from gaitwright.dynamics.newton_euler import (
     bias_motion,
     dynamics_in,
@@ -18,6 +17,7 @@ from gaitwright.dynamics.newton_euler import (
     with_accelerations,
 )
 from gaitwright.model.kinematics import angles, feet
+from gaitwright.model.leg import leg_at, leg_of, leg_turns
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, rotation
 from oracles import NEEDS_PINOCCHIO, State, any_state, mujoco_inverse, pinocchio_inverse, robot_called, unlike

@@ -23,9 +23,9 @@ from gaitwright.numerics.geometry import quaternion_of
 from gaitwright.numerics.polygon import hull, leaned, margins
 from gaitwright.plant.closure import Closure
 from gaitwright.plant.kinematic import KinematicPlant
-from gaitwright.record.recording import walk
+from gaitwright.session import walk
 from gaitwright.signals import Mission, Sensed
-from gaitwright.skills.chooser import Fixed
+from gaitwright.skills.chooser import HeldSkill
 from oracles import robot_called
 
 seeds = st.integers(0, 2**32 - 1)
@@ -229,7 +229,7 @@ def test_the_kinematic_driver_goes_through_a_climb_with_a_report() -> None:
     """The same way, feet and joints as planned, tick by tick, and the same report as any skill's."""
     robot, scene, dt = robot_called("thesis"), stairs(45.0, 9.0), 0.1
     short = climb(robot, scene, distance=6.0)
-    chooser = Fixed(climb_call(short, "kinematic"))
+    chooser = HeldSkill(climb_call(short, "kinematic"))
     brain = replace(Brain.of(robot, scene, chooser, dt), chooser=chooser, coordinator=Climber(short, dt))
     seconds = len(short.steps) * short.seconds
     plant = KinematicPlant(robot, scene, dt)

@@ -9,7 +9,11 @@ from hypothesis import strategies as st
 
 from gaitwright.control.inverse_dynamics import load_of, packed_load
 from gaitwright.errors import WrongUse
-from gaitwright.gait.desired_cycle import DesiredCycle, Manner, desired_cycle, path
+from gaitwright.gait.command import path
+from gaitwright.gait.desired_cycle import DesiredCycle, Manner, desired_cycle, foothold
+from gaitwright.gait.leg_cycles.files import load_cycle
+from gaitwright.gait.leg_cycles.leg_cycle import LegCycle, tabulated_legs
+from gaitwright.gait.swing import AIM_BELOW, REACH_DOWN, swing_reference
 from gaitwright.model.kinematics import feet
 from gaitwright.numerics.geometry import GRAVITY, rotation_vector
 from gaitwright.signals import Gait
@@ -67,8 +71,9 @@ def test_velocities_and_accelerations_are_the_rates_of_what_they_belong_to(
         (c.feet_w, c.feet_velocity_w, c.feet_acceleration_w, c.robot.height),
         (c.q, c.qd, c.qdd, 1.0),
     ):
-        assert np.abs(rate(x, period, 1) - v[1:-1])[down].max() < 5e-3 * unit * w0
-        assert np.abs(rate(v, period, 1) - a[1:-1])[down].max() < 2e-2 * unit * w0**2
+        # As the feet themselves follow it, a leg cycle is interpolated linearly between its 128 bins.
+        assert np.abs(rate(x, period, 1) - v[1:-1])[down].max() < 5e-2 * unit * w0
+        assert np.abs(rate(v, period, 1) - a[1:-1])[down].max() < 1.0 * unit * w0**2
     unit = c.robot.height
     assert np.abs(rate(c.position_w, period, 1) - c.velocity_w[1:-1]).max() < 2e-3 * unit * w0
     # The periodic reference is interpolated linearly between its 256 bins.
@@ -107,7 +112,7 @@ def test_feet_that_are_down_stay_and_the_others_are_above_the_ground(name, skill
     height = c.feet_w[..., 2] - c.robot.foot_radius
     assert not c.feet_velocity_w[c.stance].any() and not c.feet_acceleration_w[c.stance].any()
     assert not height[c.stance].any()
-    assert (height[~c.stance] >= 0.0).all()
+    assert (height[~c.stance] >= -1e-12).all()
     assert height.max() == pytest.approx(0.2 * c.robot.height, rel=1e-3)
     share = c.stance.mean(axis=0)
     assert np.abs(share - c.gait.duty).max() <= 1.5 / c.steps
@@ -139,6 +144,41 @@ def test_the_path_is_the_arc_that_the_command_integrates_to(forward, left, turn,
     place, yaw = path(np.array([forward, left, turn]), t[-1:])
     assert np.abs(place[0] - integral).max() < 1e-4
     assert yaw[0] == turn * t[-1]
+
+
+# --- the swing -------------------------------------------------------------------------------------
+LOW: LegCycle = LegCycle("low", ((0.0, -0.5, 0.0), (0.3, -0.3, 0.1), (0.7, 0.3, 0.1), (1.0, 0.5, 0.0)))
+HIND = replace(LOW, name="uneven", hind=load_cycle("climb").points)
+
+
+@pytest.mark.parametrize(("skill", "lift"), [("walk", 0.2), ("climb", 0.28), ("descend", 0.2), ("trot", 0.2)])
+def test_a_foot_is_swung_as_high_as_the_leg_cycle_of_its_gait(skill: str, lift: float):
+    c = cycle_of("go2", skill, 0.5)
+    height = c.feet_w[..., 2] - c.robot.foot_radius
+    assert height.max(axis=0) == pytest.approx(lift * c.robot.height, rel=1e-2)
+
+
+@pytest.mark.parametrize("cycle", [LOW, HIND, load_cycle("climb")])
+def test_the_swing_is_the_one_that_the_coordinator_asks_for(cycle: LegCycle):
+    """Until it reaches down, and but for the aim, which it takes below the ground to be sure to meet it."""
+    robot = robot_called("go2")
+    gait = gait_of(find_skill("trot", robot), robot)
+    c = desired_cycle(robot, gait, (0.4, 0.1), 0.3, Manner(cycle=cycle), 500)
+    duration, tables = (1.0 - gait.duty) * gait.period, tabulated_legs(cycle, robot.n)
+    for leg in range(robot.n):
+        along = c.phase + gait.offsets[leg]
+        share = (along % 1.0 - gait.duty) / (1.0 - gait.duty)
+        for i in np.flatnonzero((share >= 0.0) & (share < REACH_DOWN)):
+            before, after = (
+                foothold(robot, gait, c.command, np.full((1, 4), np.floor(along[i]) + k))[0, leg]
+                for k in (0, 1)
+            )
+            after[2] += AIM_BELOW * robot.height
+            p, v, a = np.empty((3, 3))
+            swing_reference(before, *after, share[i], duration, robot.height, tables[leg], 1.0, p, v, a)
+            np.testing.assert_allclose(c.feet_w[i, leg], p, atol=1e-12)
+            np.testing.assert_allclose(c.feet_velocity_w[i, leg], v, atol=1e-11)
+            np.testing.assert_allclose(c.feet_acceleration_w[i, leg], a, atol=1e-9)
 
 
 # --- as the controllers read it --------------------------------------------------------------------
@@ -215,3 +255,15 @@ def test_height_and_lift_are_as_asked():
     assert c.position_w[:, 2] - 0.05 == pytest.approx(2.3)
     assert c.feet_w[..., 2].max() - 0.05 == pytest.approx(0.5, rel=1e-2)
     assert c.stride_w == pytest.approx([3.0, 0.0, 0.0])
+
+
+def test_a_lift_is_that_of_every_foot_and_a_cycle_that_lifts_none_cannot_have_one():
+    robot = robot_called("go2")
+    gait = gait_of(find_skill("trot", robot), robot)
+    c = desired_cycle(robot, gait, (0.3, 0.0), manner=Manner(lift=0.04, cycle=HIND), steps=400)
+    height = c.feet_w[..., 2] - robot.foot_radius
+    assert height.max(axis=0) == pytest.approx(0.04, rel=1e-2)
+    flat = LegCycle("flat", tuple((s, forward, 0.0) for s, forward, _ in LOW.points))
+    with pytest.raises(WrongUse, match=r"leg cycle 'flat' lifts no foot: it cannot be swung 0\.04 m high"):
+        desired_cycle(robot, gait, (0.3, 0.0), manner=Manner(lift=0.04, cycle=flat))
+    assert not desired_cycle(robot, gait, (0.0, 0.0), manner=Manner(cycle=flat), steps=8).qd.any()

@@ -21,14 +21,14 @@ from gaitwright.gait.footholds import (
 )
 from gaitwright.gait.leg_cycles.files import load_cycle
 from gaitwright.gait.leg_cycles.leg_cycle import tabulated
-from gaitwright.ground.foothold_map import Footing, height_at, nearest
+from gaitwright.ground.elevation import BLIND, elevation_grid, height_at, nearest
 from gaitwright.ground.scene import load_scene
 from oracles import robot_called
 
 DOG = robot_called("dog")
 H = DOG.height
 GROUNDS = {
-    name: Footing.of(load_scene(name, seed=2), DOG).ground
+    name: elevation_grid(load_scene(name, seed=2), DOG)
     for name in ("stairs:0.10", "gap:0.2", "rough:0.05", "blocks")
 }
 names = st.sampled_from(sorted(GROUNDS))
@@ -111,4 +111,4 @@ def test_an_edge_on_the_way_is_no_ground() -> None:
     ground = GROUNDS["stairs:0.10"]
     assert is_on_ground(ground, np.array([5.2, 0.0, 0.02]), 0.02, H)
     assert not is_on_ground(ground, np.array([5.2, 0.0, 0.10]), 0.02, H)
-    assert is_on_ground(Footing.blind().ground, np.array([5.2, 0.0, 9.0]), 0.02, H)
+    assert is_on_ground(BLIND, np.array([5.2, 0.0, 9.0]), 0.02, H)

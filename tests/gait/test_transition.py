@@ -7,7 +7,7 @@ import pytest
 
 from gaitwright.gait.coordinator import Coordinator
 from gaitwright.gait.desired_cycle import desired_cycle
-from gaitwright.gait.transition import rhythm_of, takes_over
+from gaitwright.gait.transition import takes_over
 from gaitwright.signals import Gait, SkillCall
 from gaitwright.skills.library import LIBRARY, gait_of, skill_names
 from oracles import robot_called
@@ -31,9 +31,9 @@ def test_the_same_gait_with_other_phases_goes_on_where_it_was(name: str, shift: 
     for i in range(cycle.steps):
         _, memory = coordinator.move(memory, call_of(gait), cycle.sensed(i))
     other = replace(gait, name="other", offsets=tuple((o + shift) % 1.0 for o in gait.offsets))
-    before = memory[0]
+    before = memory.row[0]
     _, memory = coordinator.move(memory, call_of(other), cycle.sensed(cycle.steps - 1))
-    off = (memory[0] + shift - before + 0.5) % 1.0 - 0.5
+    off = (memory.row[0] + shift - before + 0.5) % 1.0 - 0.5
     assert abs(off) < 0.12, "its legs are where they were"
 
 
@@ -43,8 +43,8 @@ def test_a_gait_begins_with_the_phase_it_is_given(name: str) -> None:
     sensed = desired_cycle(DOG, gait_of(LIBRARY["stand"], DOG), (0.0, 0.0)).sensed(0)
     coordinator = Coordinator(DOG, DT)
     _, memory = coordinator.move(coordinator.begin(sensed, 0.37), call_of(gait), sensed)
-    assert rhythm_of(memory) == (gait.period, gait.duty, gait.offsets)
-    assert 0.37 <= memory[0] <= 0.37 + 2.0 * DT / gait.period
+    assert memory.gait == gait
+    assert 0.37 <= memory.row[0] <= 0.37 + 2.0 * DT / gait.period
 
 
 def test_a_robot_that_is_too_fast_keeps_its_gait_until_it_is_not() -> None:
@@ -54,10 +54,10 @@ def test_a_robot_that_is_too_fast_keeps_its_gait_until_it_is_not() -> None:
     memory = coordinator.begin(cycle.sensed(0), 0.0)
     _, memory = coordinator.move(memory, call_of(run, (1.5, 0.0)), cycle.sensed(0))
     _, memory = coordinator.move(memory, call_of(walk), cycle.sensed(1))
-    assert rhythm_of(memory)[0] == run.period
+    assert memory.gait == run
     slow = replace(cycle.sensed(1), velocity_w=np.array([0.3, 0.0, 0.0]))
     _, memory = coordinator.move(memory, call_of(walk), slow)
-    assert rhythm_of(memory)[0] == walk.period
+    assert memory.gait == walk
 
 
 def test_standing_waits_for_a_robot_that_moves() -> None:

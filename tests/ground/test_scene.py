@@ -13,7 +13,7 @@ from shapely import Point, Polygon, box, unary_union
 
 from gaitwright.errors import BadFile, WrongUse
 from gaitwright.ground.layouts import BUILDERS, CLEAR, GOAL, PASSAGE
-from gaitwright.ground.scene import Scene, load_scene
+from gaitwright.ground.scene import BLIND_STEP, Scene, load_scene
 from gaitwright.ground.scenes_list import OFFERS, scene_names
 from gaitwright.ground.terrain import Box, Flat, HeightField, Slope, Surface, sampled
 from robots_by_hand import dog
@@ -87,8 +87,8 @@ def test_a_scene_is_as_high_as_its_highest_thing() -> None:
 def test_only_what_is_too_high_to_step_on_is_an_obstacle() -> None:
     low, high = Box(0.0, 0.0, 0.0, 1.0, 1.0, 0.05), Box(3.0, 0.0, 0.0, 1.0, 1.0, 0.07)
     scene = Scene("two", Flat(), (low, high))
-    assert scene.obstacles(DOG) == (high,)
-    assert scene.obstacles(DOG, step=0.5) == ()
+    assert scene.obstacles(BLIND_STEP * DOG.height) == (high,)
+    assert scene.obstacles(0.5 * DOG.height) == ()
 
 
 # --- built-in scenes -----------------------------------------------------------------------------
@@ -146,7 +146,7 @@ def test_stairs_go_up_and_down_by_their_step() -> None:
 @pytest.mark.parametrize("seed", range(21))
 def test_blocks_always_leave_a_way_around_the_one_in_the_way(seed: int) -> None:
     scene = load_scene("blocks", seed)
-    large = [Polygon(block.corners()) for block in scene.obstacles(DOG)]
+    large = [Polygon(block.corners()) for block in scene.obstacles(BLIND_STEP * DOG.height)]
     small = [block for block in scene.boxes if block.height <= 0.04]
     room = box(*scene.bounds)
     assert len(large) >= 2 and len(small) >= 20 and len(large) + len(small) == len(scene.boxes)

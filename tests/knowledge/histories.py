@@ -51,17 +51,17 @@ def run_history(
         kind = ("positive" if rng.random() < 0.5 else "omission") if right else "commission"
         learned = learn(book, Lesson(kind, "skill", situation, action=Action("skill")))
         if learned.trouble is None:
-            book = learned.book
+            book = learned.rulebook
             taught.append((right, situation))
         else:
             troubles += 1
-            assert learned.book == book
+            assert learned.rulebook == book
             if complete and book.forest == forest:
                 assert not some_conjunction_fits(forest, [*taught, (right, situation)])
             change = mend(book, learned.trouble)
             if change.how != "none":
                 mended += 1
-                book = change.book
+                book = change.rulebook
                 taught.append((right, situation))
             else:
                 assert (not right, situation) in taught

@@ -5,10 +5,10 @@ import numpy as np
 from gaitwright.knowledge.forest import Forest, Situation
 from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.rules import Instance, Marks, Rule, Rulebook
-from gaitwright.knowledge.trees import Tree, interval_tree, tree
+from gaitwright.knowledge.trees import FeatureTree, interval_tree, tree
 
 
-def random_tree(rng: np.random.Generator, name: str, most: int = 6) -> Tree:
+def random_tree(rng: np.random.Generator, name: str, most: int = 6) -> FeatureTree:
     """A tree of 2 to `most` leaves, of names in random groups or of intervals."""
     count = int(rng.integers(2, most + 1))
     if rng.random() < 0.3:
@@ -23,6 +23,16 @@ def _random_shape(rng: np.random.Generator, row: list[str]) -> list:
     cut = int(rng.integers(1, len(row)))
     parts = [part for part in (row[:cut], row[cut:]) if part]
     return [part[0] if len(part) == 1 else {"+".join(part): _random_shape(rng, part)} for part in parts]
+
+
+def parent(tree: FeatureTree, value: str) -> str | None:
+    """The value it hangs below; `None` for the root."""
+    return (None, *tree.path(value))[-2]
+
+
+def children(tree: FeatureTree, value: str) -> tuple[str, ...]:
+    """The values directly below one."""
+    return tuple(below for below in tree.values if parent(tree, below) == value)
 
 
 def random_forest(rng: np.random.Generator, trees: int, most: int = 6) -> Forest:
@@ -55,10 +65,10 @@ def _random_rule(rng: np.random.Generator, forest: Forest, name: str, widest: fl
     return Rule(name, Action(name), tuple(marks), () if empty else (positive,), proposed=proposed)
 
 
-_paths: dict[int, tuple[Tree, dict[str, frozenset[str]]]] = {}  # holds the trees, so that ids stay theirs
+_paths: dict[int, tuple[FeatureTree, dict[str, frozenset[str]]]] = {}
 
 
-def is_below(grown: Tree, value: str, mark: str) -> bool:
+def is_below(grown: FeatureTree, value: str, mark: str) -> bool:
     """Whether a value is below a mark, from the ways down to the values alone."""
     if id(grown) not in _paths:
         _paths[id(grown)] = grown, {value: frozenset(grown.path(value)) for value in grown.values}

@@ -103,16 +103,16 @@ def correct(book, rule, terrain, speed, **fields):
     situation = FOREST.situation({"terrain": terrain, "speed": speed})
     learned = teach(book, Lesson("omission", rule, situation, action=Action(rule), **fields))
     assert learned.trouble is None, learned.trouble.sentence
-    assert consult(learned.book, situation).rule == rule and not audit(learned.book)
+    assert consult(learned.rulebook, situation).rule == rule and not audit(learned.rulebook)
     return learned
 
 
 def test_a_correction_ends_with_the_right_decision():
-    book = correct(Rulebook(FOREST), "walk", "flat", "slow").book
+    book = correct(Rulebook(FOREST), "walk", "flat", "slow").rulebook
     learned = correct(book, "run", "flat", "fast")
     assert [event.rule for event in learned.events if event.mark == "upper"] == ["walk"]
-    again = correct(learned.book, "run", "flat", "fast")
-    assert again.events == () and again.book["run"].quiet == 1
+    again = correct(learned.rulebook, "run", "flat", "fast")
+    assert again.events == () and again.rulebook["run"].quiet == 1
 
 
 def ordered(*lessons):
@@ -125,7 +125,7 @@ def ordered(*lessons):
         lesson = Lesson(kind, rule, situation, action=Action(rule), blame=blame[0] if blame else "")
         learned = learn(book, lesson)
         assert learned.trouble is None, learned.trouble.sentence
-        book = learned.book
+        book = learned.rulebook
     return book, forest.situation({"terrain": "uphill", "speed": "fast"})
 
 
@@ -140,23 +140,23 @@ def test_rules_are_ordered_before_they_are_narrowed():
     book, situation = ordered(*WALK_THEN_RUN)
     assert consult(book, situation).conflict == ("walk", "run")
     learned = teach(book, Lesson("omission", "run", situation, id="lap 7"))
-    assert consult(learned.book, situation).conflict == ("run", "walk")
-    assert learned.book["walk"] == book["walk"]  # ordered, not narrowed
+    assert consult(learned.rulebook, situation).conflict == ("run", "walk")
+    assert learned.rulebook["walk"] == book["walk"]  # ordered, not narrowed
     assert [event.mark for event in learned.events].count("order") == 1
-    wish = learned.book.preferences[0]
+    wish = learned.rulebook.preferences[0]
     assert (wish.better, wish.worse, wish.instance) == ("run", "walk", "lap 7")
-    slow = learned.book.forest.situation({"terrain": "flat", "speed": "slow"})
-    assert consult(learned.book, slow).rule == "walk"
+    slow = learned.rulebook.forest.situation({"terrain": "flat", "speed": "slow"})
+    assert consult(learned.rulebook, slow).rule == "walk"
 
 
 def test_a_rule_rises_after_it_was_kept_out_of_what_those_it_passes_were_right_at():
     book, situation = ordered(*WALK_THEN_RUN, ("+", "walk", "slippery", "medium"))
     learned = teach(book, Lesson("omission", "run", situation))
-    assert [rule.name for rule in learned.book.rules] == ["run", "walk"]
-    assert learned.book["walk"] == book["walk"] and len(learned.book["run"].negatives) == 2
-    seen = learned.book.forest.situation({"terrain": "slippery", "speed": "medium"})
-    assert consult(learned.book, seen).conflict == ("walk",)
-    assert consult(learned.book, situation).rule == "run" and not relapses(learned.book)
+    assert [rule.name for rule in learned.rulebook.rules] == ["run", "walk"]
+    assert learned.rulebook["walk"] == book["walk"] and len(learned.rulebook["run"].negatives) == 2
+    seen = learned.rulebook.forest.situation({"terrain": "slippery", "speed": "medium"})
+    assert consult(learned.rulebook, seen).conflict == ("walk",)
+    assert consult(learned.rulebook, situation).rule == "run" and not relapses(learned.rulebook)
 
 
 def test_a_rule_is_narrowed_where_stored_instances_forbid_the_order():
@@ -165,11 +165,11 @@ def test_a_rule_is_narrowed_where_stored_instances_forbid_the_order():
     )
     book = learn(
         book, Lesson("omission", "run", replace_value(book.forest, situation, "speed", "medium"))
-    ).book
-    book = learn(book, Lesson("commission", "walk", situation)).book
+    ).rulebook
+    book = learn(book, Lesson("commission", "walk", situation)).rulebook
     wide = Rulebook(book.forest, (replace(book["walk"], negatives=(), choices=()), book["run"]))
     assert prefer(wide, "run", "walk", situation, "lap 1") is None
-    assert [rule.name for rule in teach(book, Lesson("omission", "run", situation)).book.rules] == [
+    assert [rule.name for rule in teach(book, Lesson("omission", "run", situation)).rulebook.rules] == [
         "walk",
         "run",
     ]
@@ -177,7 +177,7 @@ def test_a_rule_is_narrowed_where_stored_instances_forbid_the_order():
 
 def test_relapses_are_what_a_rule_before_took_away():
     book, situation = ordered(*WALK_THEN_RUN)
-    book = teach(book, Lesson("omission", "run", situation, id="lap 5")).book
+    book = teach(book, Lesson("omission", "run", situation, id="lap 5")).rulebook
     assert relapses(book) == ()
     undone = Rulebook(book.forest, (book["walk"], book["run"]))
     assert {lesson.id for lesson in relapses(undone)} == {"lesson 2", "lap 5"}
@@ -193,19 +193,19 @@ def test_the_worse_rule_sinks_where_the_better_one_cannot_rise():
     book, situation = ordered(walk, *middle, *run)
     assert consult(book, situation).conflict == ("walk", "run")
     learned = teach(book, Lesson("omission", "run", situation))
-    assert [rule.name for rule in learned.book.rules] == ["trot", "run", "walk"]
-    assert consult(learned.book, situation).rule == "run" and not audit(learned.book)
+    assert [rule.name for rule in learned.rulebook.rules] == ["trot", "run", "walk"]
+    assert consult(learned.rulebook, situation).rule == "run" and not audit(learned.rulebook)
 
 
 def test_a_wish_is_not_undone_by_a_later_one():
     book, situation = ordered(*WALK_THEN_RUN)
-    book = teach(book, Lesson("omission", "run", situation)).book
+    book = teach(book, Lesson("omission", "run", situation)).rulebook
     assert prefer(book, "walk", "run", situation, "lap 8") is None
-    assert prefer(book, "run", "walk", situation, "lap 9").book.rules == book.rules
+    assert prefer(book, "run", "walk", situation, "lap 9").rulebook.rules == book.rules
 
 
 def test_a_correction_that_meets_a_contradiction_says_so_and_keeps_what_it_learned():
     book, situation = ordered(*WALK_THEN_RUN, ("+", "walk", "uphill", "fast"))
     learned = teach(book, Lesson("omission", "run", situation))
     assert learned.trouble is not None and learned.trouble.rule == "walk" and learned.trouble.same
-    assert len(learned.book["run"].positives) == 2 and not audit(learned.book)
+    assert len(learned.rulebook["run"].positives) == 2 and not audit(learned.rulebook)

@@ -6,19 +6,19 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from random_books import is_below, random_forest, random_tree
+from random_books import children, is_below, parent, random_forest, random_tree
 
 from gaitwright.errors import WrongUse
 from gaitwright.knowledge.forest import Forest, replace_value
 from gaitwright.knowledge.memory import Action, applied, remembered
-from gaitwright.knowledge.trees import MAX_DEPTH, Tree, interval_tree, nest, regrouped, tree
+from gaitwright.knowledge.trees import MAX_DEPTH, FeatureTree, interval_tree, nest, regrouped, tree
 
 TERRAIN = tree("terrain", {"even": ("flat", "slippery"), "slope": ("uphill", "downhill"), "stairs": ()})
 SPEED = interval_tree("speed", "m/s", (0.5, 1.0, 2.0), ("slow", "medium", "fast", "very fast"))
 seeds = st.integers(0, 2**32 - 1)
 
 
-def drawn(seed: int) -> tuple[Tree, list[str]]:
+def drawn(seed: int) -> tuple[FeatureTree, list[str]]:
     """A random tree and three of its values."""
     rng = np.random.default_rng(seed)
     grown = random_tree(rng, "t", 8)
@@ -28,8 +28,8 @@ def drawn(seed: int) -> tuple[Tree, list[str]]:
 def test_values_stand_in_order_and_know_what_is_above_and_below():
     assert TERRAIN.leaves == ("flat", "slippery", "uphill", "downhill", "stairs")
     assert TERRAIN.path("uphill") == ("any", "slope", "uphill")
-    assert TERRAIN.parent("slope") == "any" and TERRAIN.parent("any") is None
-    assert TERRAIN.children("any") == ("even", "slope", "stairs")
+    assert parent(TERRAIN, "slope") == "any" and parent(TERRAIN, "any") is None
+    assert children(TERRAIN, "any") == ("even", "slope", "stairs")
     assert TERRAIN.leaves_below("slope") == ("uphill", "downhill")
     assert TERRAIN.child_towards("any", "downhill") == "slope"
     assert TERRAIN.steps("flat", "uphill") == 4 and TERRAIN.steps("flat", "flat") == 0
@@ -55,7 +55,7 @@ def test_below_is_the_way_down_and_a_child_stands_between(seed):
     assert grown.is_below(a, b) == (set(grown.leaves_below(a)) <= set(grown.leaves_below(b)))
     if a != b and is_below(grown, a, b):
         child = grown.child_towards(b, a)
-        assert grown.parent(child) == b and is_below(grown, a, child)
+        assert parent(grown, child) == b and is_below(grown, a, child)
     else:
         with pytest.raises(WrongUse, match="no way leads down"):
             grown.child_towards(b, a)
@@ -65,9 +65,9 @@ def test_below_is_the_way_down_and_a_child_stands_between(seed):
 def test_values_below_one_value_exclude_each_other_and_leave_nothing_out(seed):
     grown, _ = drawn(seed)
     for value in grown.values:
-        children = grown.children(value)
-        below = [leaf for child in children for leaf in grown.leaves_below(child)]
-        assert not children or sorted(below) == sorted(grown.leaves_below(value))
+        parts = children(grown, value)
+        below = [leaf for part in parts for leaf in grown.leaves_below(part)]
+        assert not parts or sorted(below) == sorted(grown.leaves_below(value))
 
 
 @given(seeds)
@@ -96,7 +96,7 @@ def test_every_number_is_in_the_interval_that_says_so(bounds, number):
 
 
 def test_intervals_are_halved_and_named_by_their_ends():
-    assert SPEED.children("any") == ("slow to medium", "fast to very fast")
+    assert children(SPEED, "any") == ("slow to medium", "fast to very fast")
     assert SPEED.leaf_of(0.5) == "medium" and SPEED.leaf_of(math.inf) == "very fast"
     chosen = interval_tree("speed", "m/s", (1.0, 2.0), {"calm": ("slow", "medium"), "fast": ()})
     assert chosen.leaves_below("calm") == ("slow", "medium")
@@ -115,7 +115,7 @@ def test_intervals_are_halved_and_named_by_their_ends():
         (lambda: tree("t", ("a", "b" * 201)), "no label"),
         (lambda: tree("t", tuple(f"v{k}" for k in range(600))), "2 to 512"),
         (lambda: tree("t", _deep(MAX_DEPTH + 1)), f"deeper than {MAX_DEPTH}"),
-        (lambda: Tree("t", ("any", "a", "b"), (-1, 2, 1)), "hangs below place 2"),
+        (lambda: FeatureTree("t", ("any", "a", "b"), (-1, 2, 1)), "hangs below place 2"),
         (lambda: interval_tree("t", "m", (2.0, 1.0)), "ascending"),
         (lambda: interval_tree("t", "m", (1.0, math.nan)), "finite"),
         (lambda: interval_tree("t", "m", (1.0,), ("a", "b", "c")), "2 intervals, got 3 labels"),
@@ -143,7 +143,9 @@ def test_a_situation_has_one_leaf_per_tree():
     assert situation["speed"] == "fast" and situation["terrain"] == "flat"
     assert forest.at(forest.leaf_places(situation)) == situation
     assert replace_value(forest, situation, "speed", 0.0)["speed"] == "slow"
-    assert forest.from_memory({"terrain": "stairs", "speed": 3.0, "weather": "fine"})["speed"] == "very fast"
+    facts = {"terrain": "stairs", "speed": 3.0, "weather": "fine"}
+    assert forest.read({}, facts).values == ("stairs", "very fast")
+    assert forest.read({"terrain": "flat"}, {"terrain": "stairs"}).values == ("flat", None)
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from random_books import is_below, random_book, random_forest, random_situation
+from random_books import is_below, parent, random_book, random_forest, random_situation
 
 from gaitwright.errors import WrongUse
 from gaitwright.knowledge.discriminate import discriminate, grey_trees
@@ -34,7 +34,7 @@ def taught(*lessons, book=None):
         fields = more[0] if more else {}
         learned = learn(book, Lesson(kind, "trot", situation, action=Action("trot"), **fields))
         assert learned.trouble is None, learned.trouble.sentence
-        book = learned.book
+        book = learned.rulebook
     return book
 
 
@@ -73,7 +73,7 @@ def test_discriminating_never_widens_and_moves_one_mark_just_enough(seed):
     for old, new in moved:
         assert new.lower == old.lower
         assert is_below(grown, new.upper, old.upper) and is_below(grown, new.lower, new.upper)
-        assert is_below(grown, value, grown.parent(new.upper))  # one step higher would let it in
+        assert is_below(grown, value, parent(grown, new.upper))  # one step higher would let it in
 
 
 def test_the_first_instance_puts_lower_marks_on_leaves_and_leaves_upper_marks_at_the_roots():
@@ -97,7 +97,7 @@ def test_a_far_miss_keeps_its_alternatives_and_returns_to_them_when_the_choice_p
     book = taught(("+", at("flat", "medium")), wrong)
     assert book["trot"].choices == (Choice("terrain", ("speed",)),)
     learned = learn(book, Lesson("omission", "trot", at("downhill", "slow")))
-    rule = learned.book["trot"]
+    rule = learned.rulebook["trot"]
     assert rule.choices == (Choice("speed"),)
     assert rule.marks_in("terrain") == Marks("terrain", "any", "any")
     assert rule.marks_in("speed") == Marks("speed", "calm", "calm")
@@ -126,8 +126,8 @@ def test_a_far_miss_is_blamed_on_the_tree_where_most_values_are_lost():
 def test_what_is_kept_out_already_moves_nothing():
     book = taught(("+", at("flat", "medium")), ("-", at("flat", "fast")))
     learned = learn(book, Lesson("commission", "trot", at("uphill", "very fast", "night")))
-    assert learned.events == () and learned.book["trot"].marks == book["trot"].marks
-    assert learned.book["trot"].choices[1].tree == "speed"
+    assert learned.events == () and learned.rulebook["trot"].marks == book["trot"].marks
+    assert learned.rulebook["trot"].choices[1].tree == "speed"
 
 
 def test_a_rule_comes_from_empty_to_shell_to_stabilised_to_firm():

@@ -24,7 +24,7 @@ def taught_book(seed: int) -> Rulebook:
         action = Action(rule, 0.1, 1.0, "there", (("at", "B"), ("height", 0.3)), ("at",), (("size", 2.0),))
         raw = {"friction": float(rng.random()), "ground": "grass"}
         situation = random_situation(rng, book.forest)
-        book = teach(book, Lesson("omission", rule, situation, raw=raw, action=action)).book
+        book = teach(book, Lesson("omission", rule, situation, raw=raw, action=action)).rulebook
     return book
 
 

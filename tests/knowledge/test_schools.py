@@ -26,12 +26,12 @@ def corrected(book, situation, skill):
     """The book after one correction, mended wherever it contradicts itself."""
     for _ in range(10):
         learned = teach(book, Lesson("omission", skill, situation, action=Action(skill)))
-        book = learned.book
+        book = learned.rulebook
         if learned.trouble is None:
             return book
         mended = mend(book, learned.trouble)
         assert mended.how != "none", mended.sentence
-        book = mended.book
+        book = mended.rulebook
     raise AssertionError("ten repairs were not enough")
 
 

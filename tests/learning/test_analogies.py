@@ -19,11 +19,11 @@ def test_descending_is_proposed_from_climbing_and_waits_to_be_confirmed() -> Non
     up, down = at(road="stairs up"), at(road="stairs down")
     action = Action("climb", 0.1, 0.3)
     lesson = Lesson("omission", "climb", up, "1", "steps up", {}, "road", action)
-    book = teach(Rulebook(FOREST), lesson).book
+    book = teach(Rulebook(FOREST), lesson).rulebook
     (offer,) = proposals(book)
-    assert offer.book["descend"].action.skill == "descend" and offer.book["descend"].proposed
-    assert consult(offer.book, down).rule != "descend"
-    sure = confirm(offer.book, "descend", "2").book
+    assert offer.rulebook["descend"].action.skill == "descend" and offer.rulebook["descend"].proposed
+    assert consult(offer.rulebook, down).rule != "descend"
+    sure = confirm(offer.rulebook, "descend", "2").rulebook
     assert "descend" in consult(sure, down).conflict
 
 
@@ -33,5 +33,5 @@ def test_nothing_is_proposed_that_is_known_already() -> None:
         lesson = Lesson(
             "omission", skill, at(road=road), str(k), "steps", {}, "road", Action(skill, 0.1, 0.3)
         )
-        book = teach(book, lesson).book
+        book = teach(book, lesson).rulebook
     assert proposals(book) == ()

@@ -12,7 +12,7 @@ from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.modifier import audit
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.learning.apprentice import confirmed, corrected, step_of, study
-from gaitwright.learning.critic import Moment, Step, criticise
+from gaitwright.learning.critic import DecisionPoint, TraceStep, criticise
 from gaitwright.learning.teacher import POLICY, Correction, ScriptedTeacher, Shown
 from gaitwright.skills.rule_chooser import DOING
 from gaitwright.skills.situation import FOREST, READ_FROM, named
@@ -31,13 +31,13 @@ TEACHER = ScriptedTeacher()
 names = st.lists(st.sampled_from(["walk", "trot", "run"]), min_size=1, max_size=12)
 
 
-def moment(memory=(), **changes) -> Moment:
+def moment(memory=(), **changes) -> DecisionPoint:
     raw = EASY | {name.replace("_", " "): value for name, value in changes.items()}
-    return Moment(f"{changes}", named(raw), raw, dict(memory))
+    return DecisionPoint(f"{changes}", named(raw), raw, dict(memory))
 
 
-def trace(skills) -> list[Step]:
-    return [Step(moment(remaining=5.0 + k), Action(skill), skill) for k, skill in enumerate(skills)]
+def trace(skills) -> list[TraceStep]:
+    return [TraceStep(moment(remaining=5.0 + k), Action(skill), skill) for k, skill in enumerate(skills)]
 
 
 @given(names, st.data())
@@ -83,27 +83,27 @@ def test_each_line_of_the_policy_is_met():
 def test_after_a_trip_was_studied_the_rules_do_on_it_what_the_teacher_did(order):
     moments = [ROADS[k] for k in np.random.default_rng(order).permutation(len(ROADS))]
     studied = study(Rulebook(FOREST), TEACHER, moments, passes=6)
-    assert not audit(studied.book) and not studied.open
-    wrong = [m for m in moments if step_of(studied.book, m).action != TEACHER.ideal(m.raw).action]
+    assert not audit(studied.rulebook) and not studied.open
+    wrong = [m for m in moments if step_of(studied.rulebook, m).action != TEACHER.ideal(m.raw).action]
     assert len(wrong) <= 1, "what one lesson teaches, a later one may still overrule"
     assert studied.corrections >= len({TEACHER.ideal(m.raw).rule for m in moments})
 
 
 def test_one_correction_is_enough_and_keeps_what_was_right():
-    book = study(Rulebook(FOREST), TEACHER, [moment()]).book
+    book = study(Rulebook(FOREST), TEACHER, [moment()]).rulebook
     stairs = moment(step_up=0.4, slope=10.0)
     assert step_of(book, stairs).rule == "trot"
-    after = corrected(book, stairs, TEACHER.judge(step_of(book, stairs).action, stairs.raw)).book
+    after = corrected(book, stairs, TEACHER.judge(step_of(book, stairs).action, stairs.raw)).rulebook
     assert step_of(after, stairs).rule == "climb" and step_of(after, moment()).rule == "trot"
     higher = moment(step_up=0.6, slope=20.0, effort=0.9, familiar=1.0)
     assert step_of(after, higher).rule == "climb", "the reason was the road, so nothing else matters"
 
 
 def test_what_goes_on_teaches_nothing_about_the_trees():
-    book = study(Rulebook(FOREST), TEACHER, [moment(off_the_path=90.0)]).book
+    book = study(Rulebook(FOREST), TEACHER, [moment(off_the_path=90.0)]).rulebook
     going_on = moment({DOING: "turn-in-place"}, off_the_path=25.0, turning=1.0)
     step = step_of(book, going_on)
-    assert step.action.skill == "turn-in-place" and confirmed(book, step).book == book
+    assert step.action.skill == "turn-in-place" and confirmed(book, step).rulebook == book
 
 
 def test_a_missing_feature_is_made_from_the_number_that_the_teacher_names():
@@ -113,7 +113,7 @@ def test_a_missing_feature_is_made_from_the_number_that_the_teacher_names():
         one = moment(possible=possible)
         if step_of(book, one).action != action:
             shown = Shown(action.skill, action, about="possible")
-            book = corrected(book, one, Correction(shown, "possible")).book
+            book = corrected(book, one, Correction(shown, "possible")).rulebook
     assert "possible" in book.forest.names and not audit(book)
     assert step_of(book, moment(possible=0.52)).action == slow
     assert step_of(book, moment(possible=0.9)).action == fast

@@ -43,7 +43,7 @@ def exam():
 
 
 def test_a_short_school_makes_rules_that_are_mostly_right_where_nobody_taught_them():
-    book, report = schooled().book, schooled().report
+    book, report = schooled().rulebook, schooled().report
     assert right_share(book, TEACHER, exam()) > 0.85
     assert not audit(book) and report.trips == 2 and len(report.interventions) == 2
     assert max(report.demonstrations.values()) <= 5
@@ -57,7 +57,7 @@ from gaitwright.learning.school import attend
 from gaitwright.learning.teacher import ScriptedTeacher
 robot, teacher = load_robot("go2"), ScriptedTeacher()
 for seed in (1, 2):
-    book = attend(robot, teacher, seed).book
+    book = attend(robot, teacher, seed).rulebook
     print(right_share(book, teacher, held_out(robot, teacher, seed)))
 """
 
@@ -78,7 +78,7 @@ def test_untaught_it_knows_nothing_and_demonstrations_alone_teach_most():
     shown = first_shown()
     assert right_share(Rulebook(FOREST), TEACHER, exam()) == 0.0
     studied = demonstrate(Rulebook(FOREST), TEACHER, shown)
-    assert right_share(studied.book, TEACHER, exam()) > 0.5
+    assert right_share(studied.rulebook, TEACHER, exam()) > 0.5
     clear = [(TEACHER.ideal(moment.raw), one.rule) for one in shown for moment in one.moments]
     clear = [(ideal.rule, rule) for ideal, rule in clear if ideal.clear]
     assert len(clear) > 4 and all(ideal == rule for ideal, rule in clear)
@@ -87,17 +87,17 @@ def test_untaught_it_knows_nothing_and_demonstrations_alone_teach_most():
 def test_the_same_seed_is_the_same_school_and_another_is_not():
     one, again, other = (next(trips(DOG, TEACHER, seed)) for seed in (4, 4, 5))
     assert one == again and one != other
-    books = [study(Rulebook(FOREST), TEACHER, one).book for _ in range(2)]
+    books = [study(Rulebook(FOREST), TEACHER, one).rulebook for _ in range(2)]
     assert books[0] == books[1]
 
 
 def test_exams_are_not_lessons():
-    lessons = {event.instance for event in schooled().book.events}
+    lessons = {event.instance for event in schooled().rulebook.events}
     assert not lessons & {moment.id for moment in exam()}
 
 
 def test_a_trial_counts_what_a_correction_mends_and_breaks():
-    book = demonstrate(Rulebook(FOREST), TEACHER, first_shown()).book
+    book = demonstrate(Rulebook(FOREST), TEACHER, first_shown()).rulebook
     wrong = faults(book, TEACHER, exam())
     found = trial(book, TEACHER, wrong[0], exam(), np.random.default_rng(1))
     assert 0 < found.mended <= found.variants and 0 <= found.broken <= found.earlier
@@ -112,14 +112,14 @@ def test_a_trial_counts_what_a_correction_mends_and_breaks():
 def test_what_was_learned_without_physics_drives_a_robot_with_it():
     """Half a second in full physics: the rules choose, the numerical controller drives."""
     scene = load_scene("stairs:0.05")
-    brain, plant = Brain.of(DOG, scene, rulebook=schooled().book), MujocoPlant(DOG, scene)
+    brain, plant = Brain.of(DOG, scene, rulebook=schooled().rulebook), MujocoPlant(DOG, scene)
     sensed = plant.reset(0)
     mind = brain.begin(Mission(((6.0, 0.0),), 0.4, "hybrid"), sensed)
     laps = []
     for _ in range(250):
         lap, mind = think(brain, mind, sensed)
         laps.append(lap)
-        sensed = plant.step(lap.torques)
+        sensed = plant.step(lap.command)
     assert {lap.call.driver for lap in laps} == {"hybrid"}
     assert any(lap.call.because.startswith("rule trot") for lap in laps)
-    assert all(lap.torques.status.startswith("solved") for lap in laps)
+    assert all(lap.command.status.startswith("solved") for lap in laps)

@@ -15,6 +15,7 @@ from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.ground.terrain import Box, Flat
 from gaitwright.navigation.obstacles import PlanView, half_width, plan_view
 from gaitwright.navigation.visibility import length, shortest_path
+from gaitwright.perception.known_ground import map_of
 from robots_by_hand import dog
 
 DOG = dog()
@@ -37,7 +38,7 @@ goals = st.tuples(st.floats(3.1, 6.9), st.floats(-2.9, 2.9))
 
 
 def view_of(*obstacles: Box) -> PlanView:
-    return plan_view(Scene("test", Flat(), obstacles, BOUNDS), DOG)
+    return plan_view(map_of(Scene("test", Flat(), obstacles, BOUNDS), DOG, sees=False), half_width(DOG))
 
 
 def wall(x: float, y0: float, y1: float) -> Box:
@@ -218,6 +219,6 @@ def test_between_two_boxes_that_nearly_touch_it_finds_out_too() -> None:
 
 @pytest.mark.parametrize("seed", range(5))
 def test_the_blocks_scene_is_crossed(seed: int) -> None:
-    view = plan_view(load_scene("blocks", seed), DOG)
+    view = plan_view(map_of(load_scene("blocks", seed), DOG, sees=False), half_width(DOG))
     path = shortest_path(view, START, GOAL)
     assert path is not None and not enters(view, [START, *path])

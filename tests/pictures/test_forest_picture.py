@@ -35,7 +35,7 @@ def test_the_situation_and_the_marks_are_seen(tmp_path):
     """The blue of a situation and the red of marks are there only where these are."""
     forest = Forest((tree("ground", ("flat", "rough")), tree("load", ("light", "heavy"))))
     at = forest.situation({"ground": "flat", "load": "light"})
-    book = learn(Rulebook(forest), Lesson("omission", "trot", at, action=Action("trot"))).book
+    book = learn(Rulebook(forest), Lesson("omission", "trot", at, action=Action("trot"))).rulebook
     blue, red = (0x19, 0x71, 0xC2), (0xC2, 0x25, 0x5C)
     plain = pixels(forest_picture(book, tmp_path / "a.png"))
     assert blue not in plain and red not in plain

@@ -31,7 +31,8 @@ from gaitwright.plant.armstrong.touch_planes import Ground
 from gaitwright.plant.closure import Closure
 from gaitwright.plant.mujoco.simulation import MujocoPlant
 from gaitwright.plant.registry import make_plant
-from gaitwright.record.recording import Recording, walk
+from gaitwright.record.recording import Recording
+from gaitwright.session import walk
 from gaitwright.signals import Mission, Torques
 from gaitwright.skills.chooser import fixed_skill
 from gaitwright.skills.library import LIBRARY, speed_scale
@@ -470,7 +471,7 @@ def test_the_closure_sees_what_the_controller_did_not_want() -> None:
         closure = Closure(robot, plant.dt)
 
         def watch(lap, closure=closure, shove=shove) -> None:
-            closure.add(lap.sensed, lap.torques)
+            closure.add(lap.sensed, lap.command)
             plant.push((shove, 0.0, 0.0))
 
         hold(plant, "stand", 1.0, watch=watch)

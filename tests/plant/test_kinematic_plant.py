@@ -8,16 +8,18 @@ import pytest
 from gaitwright.control.numerical import idle
 from gaitwright.errors import WrongUse
 from gaitwright.ground.scene import Scene, load_scene
-from gaitwright.locomotion import Brain, Plant, think
+from gaitwright.locomotion import Brain, think
 from gaitwright.model.kinematics import feet
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import rotation
 from gaitwright.plant.kinematic import KinematicPlant
 from gaitwright.plant.registry import SimulatedPlant, make_plant
-from gaitwright.record.recording import Recording, walk
+from gaitwright.record.recording import Recording
+from gaitwright.session import walk
 from gaitwright.signals import Mission, Sensed, Torques
 from gaitwright.skills.chooser import fixed_skill
 from gaitwright.skills.library import skill_names
+from gaitwright.stages import Plant
 from oracles import robot_called
 
 FLAT = load_scene("flat")
@@ -73,7 +75,7 @@ def test_standing_feet_stay_no_foot_is_in_the_ground_and_no_joint_beyond_its_lim
     slid, stood = 0.0, 0
     for tick in range(700):
         lap, mind = think(brain, mind, sensed)
-        after = plant.step(lap.torques)
+        after = plant.step(lap.command)
         before_w, after_w = feet_of(robot, sensed), feet_of(robot, after)
         assert (plant.gaps(after_w) > -1e-9).all()
         assert (robot.q_min - 1e-12 <= after.q).all() and (after.q <= robot.q_max + 1e-12).all()
@@ -110,11 +112,11 @@ def test_the_body_is_set_down_on_the_feet_that_are_to_stand() -> None:
     plant, brain = KinematicPlant(robot, FLAT, DT), brain_of(robot, "stand", "kinematic")
     sensed = plant.reset(0, vary=False)
     lap, _ = think(brain, brain.begin(Mission(()), sensed), sensed)
-    asked = lap.torques.follows
+    asked = lap.command.posture
     assert asked is not None
     for off in (0.05, -0.05):
         moved = replace(asked, position_w=asked.position_w + np.array([0.0, 0.0, off]))
-        after = plant.step(replace(lap.torques, follows=moved))
+        after = plant.step(replace(lap.command, posture=moved))
         np.testing.assert_allclose(plant.gaps(feet_of(robot, after)), 0.0, atol=1e-9)
         assert (after.load > 0.0).all()
 

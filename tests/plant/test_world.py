@@ -14,7 +14,10 @@ from gaitwright.model.kinematics import angles, feet
 from gaitwright.model.robot import Robot
 from gaitwright.plant.mujoco import terrain_geoms as ground
 from gaitwright.plant.mujoco.mjcf import child
-from gaitwright.plant.mujoco.world import build_world
+from gaitwright.plant.mujoco.simulation import MujocoWorld
+from gaitwright.plant.mujoco.world import Placed, build_world
+from gaitwright.signals import MotorCommand
+from oracles import robot_called
 from robots_by_hand import dog, insect
 
 ROBOTS = pytest.mark.parametrize("robot", [dog(), insect()], ids=["dog", "insect"])
@@ -22,7 +25,7 @@ ROBOTS = pytest.mark.parametrize("robot", [dog(), insect()], ids=["dog", "insect
 
 @ROBOTS
 def test_mass_order_and_feet_are_the_robots_own(robot: Robot) -> None:
-    model = build_world(robot, load_scene("flat"))
+    model = build_world([Placed(robot)], load_scene("flat"))
     data = mujoco.MjData(model)
     assert model.body_subtreemass[0] == pytest.approx(robot.total_mass, abs=1e-12)
     assert (model.nq, model.nv, model.nu, model.nsensordata) == (19, 18, 12, 4)
@@ -35,7 +38,7 @@ def test_mass_order_and_feet_are_the_robots_own(robot: Robot) -> None:
 
 @ROBOTS
 def test_motors_joints_and_options_are_as_asked(robot: Robot) -> None:
-    model = build_world(robot, replace(load_scene("flat"), friction=0.4), timestep=0.001)
+    model = build_world([Placed(robot)], replace(load_scene("flat"), friction=0.4), timestep=0.001)
     np.testing.assert_array_equal(model.actuator_ctrlrange[:, 1].reshape(4, 3), robot.tau_max)
     np.testing.assert_array_equal(model.jnt_range[1:].reshape(4, 3, 2)[..., 0], robot.q_min)
     np.testing.assert_array_equal(model.dof_armature[6:].reshape(4, 3), robot.armature)
@@ -46,7 +49,7 @@ def test_motors_joints_and_options_are_as_asked(robot: Robot) -> None:
 
 def held(robot: Robot, scene: Scene, seconds: float) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """A robot set on its feet, its joints held by springs."""
-    model = build_world(robot, scene)
+    model = build_world([Placed(robot)], scene)
     data = mujoco.MjData(model)
     rest = angles(robot, robot.stance)[0].ravel()
     data.qpos[7:] = rest
@@ -66,7 +69,7 @@ def test_the_touch_sensors_carry_the_weight() -> None:
 
 def test_numbers_that_blow_up_stay_visible(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)  # MuJoCo writes its warnings into the working folder
-    model = build_world(dog(), load_scene("flat"))
+    model = build_world([Placed(dog())], load_scene("flat"))
     data = mujoco.MjData(model)
     data.qvel[0] = np.nan
     mujoco.mj_step(model, data)
@@ -76,7 +79,7 @@ def test_numbers_that_blow_up_stay_visible(tmp_path: Path, monkeypatch: pytest.M
 def test_the_trunk_meets_a_block_and_no_robot_part_meets_another() -> None:
     robot = dog()
     wall = Scene("wall", load_scene("flat").surface, (Box(0.0, 0.0, 0.3, 0.2, 0.2, 0.29),))
-    model = build_world(robot, wall)
+    model = build_world([Placed(robot)], wall)
     data = mujoco.MjData(model)
     data.qpos[2] = robot.height
     data.qpos[7:] = np.random.default_rng(1).uniform(-2, 2, 12)
@@ -106,7 +109,7 @@ def drop(scene: Scene, places: np.ndarray, radius: float) -> np.ndarray:
     child(root, "option", cone="elliptic", impratio=10)
     world = child(root, "worldbody")
     ground.add(root, world, scene)
-    solid = ground.collides(scene, with_robot=False)
+    solid = ground.robot_touches(scene, 0, 1)
     for x, y in places:
         body = child(world, "body", pos=[x, y, float(scene.height(x, y)) + 0.01])
         child(body, "joint", type="slide", axis=[0, 0, 1], damping=0.02)
@@ -157,7 +160,7 @@ def clear_of_sides(scene: Scene, place: np.ndarray) -> bool:
 @pytest.mark.parametrize("scene", SCENES, ids=lambda scene: scene.name)
 def test_rays_meet_the_scenes_height(scene: Scene) -> None:
     robot = dog()
-    model = build_world(robot, scene)
+    model = build_world([Placed(robot)], scene)
     data = mujoco.MjData(model)
     data.qpos[:3] = [150.0, 150.0, 150.0]
     mujoco.mj_kinematics(model, data)
@@ -166,3 +169,32 @@ def test_rays_meet_the_scenes_height(scene: Scene) -> None:
     down = np.array([0.0, 0.0, -1.0])
     met = [60.0 - mujoco.mj_ray(model, data, np.array([*p, 60.0]), down, None, 1, -1, hit) for p in places]
     np.testing.assert_allclose(met, scene.height(places[:, 0], places[:, 1]), atol=1e-3)
+
+
+def test_several_robots_share_a_world_and_are_obstacles_to_each_other() -> None:
+    """Each is addressed by its own names; alone, far from the other, it moves as if it were the only one."""
+    robot, six, scene = robot_called("go2"), robot_called("hexapod"), load_scene("flat")
+    idle = [MotorCommand(np.zeros((r.n, 3)), np.zeros((r.n, 3))) for r in (robot, six)]
+    world = MujocoWorld([Placed(robot, "a_"), Placed(six, "b_", (3.0, 1.0, 0.5))], scene, 0.002)
+    alone = MujocoWorld([Placed(robot)], scene, 0.002)
+    for one in (world, alone):
+        one.place(0, 7, True)
+    world.place(1, 7, False)
+    for _ in range(150):
+        world.advance(idle, 1)
+        alone.advance(idle[:1], 1)
+    mine, its, same = world.sense(0, 0.002), world.sense(1, 0.002), alone.sense(0, 0.002)
+    np.testing.assert_allclose(mine.q, same.q, atol=1e-6)
+    np.testing.assert_allclose(mine.position_w, same.position_w, atol=1e-6)
+    assert its.q.shape == (6, 3) and np.allclose(its.position_w[:2], (3.0, 1.0), atol=0.1)
+    heap = MujocoWorld([Placed(robot, "a_"), Placed(six, "b_", (0.0, 0.0, 0.0))], scene, 0.002)
+    heap.place(0, 0, False)
+    heap.place(1, 0, False)
+    heap.data.qpos[heap.addresses[0].qpos.start + 2] += 0.5
+    touching = set()
+    for _ in range(500):
+        heap.advance(idle, 1)
+        bodies = heap.model.geom_bodyid[[pair for contact in heap.data.contact for pair in contact.geom]]
+        owners = ["ab"[body >= heap.addresses[1].base] if body else "" for body in bodies]
+        touching |= {owners[i] + owners[i + 1] for i in range(0, len(owners), 2)}
+    assert {"ab"} <= touching <= {"ab", "a", "b"}, "the one lies on the other, and neither touches itself"

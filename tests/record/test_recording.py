@@ -19,7 +19,8 @@ from gaitwright.pictures import trip_picture
 from gaitwright.plant.mujoco.simulation import MujocoPlant
 from gaitwright.record import metrics as figures
 from gaitwright.record.mcap_export import export_mcap
-from gaitwright.record.recording import Recording, load, walk
+from gaitwright.record.recording import Recording, load
+from gaitwright.session import walk
 from gaitwright.signals import Mission
 from gaitwright.skills.chooser import fixed_skill
 
@@ -73,16 +74,24 @@ def test_mcap_reads_back_as_ros_2_messages(recording: Recording, tmp_path: Path)
     with path.open("rb") as file:
         reader = make_reader(file, decoder_factories=[DecoderFactory()])
         assert {channel.topic for channel in reader.get_summary().channels.values()} == {
-            "/joint_states", "/tf", "/tf_static", "/gaitwright/changes",
+            "/joint_states", "/tf", "/tf_static", "/gaitwright/changes", "/gaitwright/scan",
         }  # fmt: skip
         decoded = [
             (m.log_time, ros) for _, _, m, ros in reader.iter_decoded_messages(topics=["/joint_states"])
         ]
         trees = [ros for *_, ros in reader.iter_decoded_messages(topics=["/tf", "/tf_static"])]
         changes = [json.loads(m.data) for _, _, m in reader.iter_messages(topics=["/gaitwright/changes"])]
+        scans = [json.loads(m.data) for _, _, m in reader.iter_messages(topics=["/gaitwright/scan"])]
         schemas = {schema.name for schema in reader.get_summary().schemas.values()}
-    assert schemas == {"sensor_msgs/msg/JointState", "tf2_msgs/msg/TFMessage", "gaitwright.Changes"}
+    assert schemas == {
+        "sensor_msgs/msg/JointState",
+        "tf2_msgs/msg/TFMessage",
+        "gaitwright.Changes",
+        "gaitwright.Scan",
+    }
     assert changes == [{"time": 0.0, "skill": "walk", "driver": "numerical"}]
+    assert scans[0]["time"] == 0.0 and scans[0]["slope"] == recording["scan_slope"][0]
+    assert 5 < len(scans) < 15  # ten looks a second, each from another place
 
     times, states = zip(*decoded, strict=True)
     np.testing.assert_allclose(np.diff(times), 1e7, atol=1)

@@ -8,11 +8,12 @@ from gaitwright.knowledge.consult import consult
 from gaitwright.knowledge.correction import teach
 from gaitwright.knowledge.forest import Forest
 from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.modifier import Lesson
+from gaitwright.knowledge.modifier import Learned, Lesson
 from gaitwright.knowledge.repair import mend
+from gaitwright.knowledge.restructure import Mended
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.skillbook import Skillbook
-from gaitwright.skillbook.history import Step, settled
+from gaitwright.skillbook import Ledger, Skillbook
+from gaitwright.skillbook.history import Step, number_lesson
 from knowledge.random_books import random_book, random_forest, random_situation
 
 
@@ -36,18 +37,34 @@ def truthful_lesson(rng: np.random.Generator, truth: Rulebook) -> Lesson:
 
 def corrected(book: Skillbook, lesson: Lesson) -> Skillbook:
     """The book after one correction, mended until it is learned or nothing can mend it."""
-    lesson = settled(lesson, book.rulebook.lessons)
+    lesson = number_lesson(lesson, book.rulebook.lessons)
     for _ in range(10):
         learned = teach(book.rulebook, lesson)
         trouble = learned.trouble
-        book = stepped(book, Step("taught", lesson, None, trouble.sentence if trouble else ""), learned.book)
+        book = stepped(
+            book, Step("taught", lesson, None, trouble.sentence if trouble else ""), learned.rulebook
+        )
         if trouble is None:
             break
         mended = mend(book.rulebook, trouble, lesson.blame)
-        book = stepped(book, Step("mended", lesson, None, mended.sentence), mended.book)
+        book = stepped(book, Step("mended", lesson, None, mended.sentence), mended.rulebook)
         if mended.how == "none":
             break
     return book
+
+
+def teach_in(ledger: Ledger, lesson: Lesson) -> Learned:
+    """A lesson taught and recorded."""
+    learned = teach(ledger.book.rulebook, lesson)
+    ledger.record(lesson, learned)
+    return learned
+
+
+def mend_in(ledger: Ledger, lesson: Lesson, learned: Learned) -> Mended:
+    """The contradiction that a lesson just recorded ended in, mended and recorded."""
+    mended = mend(ledger.book.rulebook, learned.trouble, lesson.blame)
+    ledger.record(lesson, mended, "mended")
+    return mended
 
 
 def stepped(book: Skillbook, step: Step, rulebook: Rulebook) -> Skillbook:

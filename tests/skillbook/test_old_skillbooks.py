@@ -1,14 +1,19 @@
-"""Books of every version load forever, and a newer version can add tables."""
+"""Books of every version load forever, and a newer version can add tables.
+
+`version_N.sql` is the file that version N wrote, `version_N.txt` the same book as text, `format_N.json` its
+rulebook alone; `version_N_school.sql` a book that a school of then made.
+"""
 
 import sqlite3
 from contextlib import closing
 from pathlib import Path
 
 import pytest
-from schooling import random_lesson
+from schooling import random_lesson, teach_in
 
 from gaitwright.errors import BadFile
-from gaitwright.skillbook import Skillbook, import_text, open_for_learning, schema
+from gaitwright.knowledge import json_form
+from gaitwright.skillbook import Skillbook, import_text, open_for_learning, schema, text
 
 HERE = Path(__file__).parent
 
@@ -22,6 +27,20 @@ def first(tmp_path):
         db.execute(f"PRAGMA application_id={0x47614954}")
         db.execute("PRAGMA user_version=1")
     return path
+
+
+def test_every_version_so_far_left_a_book():
+    assert {f"version_{k + 1}.sql" for k in range(len(schema.MIGRATIONS))} == {
+        path.name for path in HERE.glob("version_?.sql")
+    }
+    assert (HERE / f"version_{text.HEAD.split()[-1]}.txt").is_file()
+    assert (HERE / f"format_{json_form.FORMAT}.json").is_file()
+
+
+def test_a_rulebook_of_the_first_format_loads():
+    written = (HERE / "format_1.json").read_bytes()
+    book = import_text((HERE / "version_1.txt").read_text(encoding="utf-8"))
+    assert json_form.loads(written) == book.rulebook
 
 
 def test_a_book_of_the_first_version_loads(first):
@@ -41,7 +60,7 @@ def test_a_newer_version_reads_and_teaches_older_books(first, rng, monkeypatch):
         assert Skillbook.load(first) == book and first.read_bytes() == before
         with open_for_learning(first) as ledger:
             assert ledger.book == book
-            ledger.teach(random_lesson(rng, book.rulebook.forest))
+            teach_in(ledger, random_lesson(rng, book.rulebook.forest))
             taught = ledger.book
         with closing(sqlite3.connect(first)) as db:
             assert db.execute("SELECT count(*) FROM profiles").fetchone() == (0,)

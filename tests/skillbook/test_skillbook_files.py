@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from schooling import random_lesson, stepped, taught_skillbook
+from schooling import mend_in, random_lesson, stepped, taught_skillbook, teach_in
 
 from gaitwright.errors import BadFile, WrongUse
 from gaitwright.knowledge.analogy import mirrored
@@ -51,7 +51,7 @@ def test_one_lesson_more_changes_few_lines(rng):
     book = taught_skillbook(7, 12)
     learned = teach(book.rulebook, random_lesson(rng, book.rulebook.forest))
     lesson = Lesson("positive", "x", random_lesson(rng, book.rulebook.forest).situation, id="new")
-    more = stepped(book, Step("taught", lesson, None, ""), learned.book)
+    more = stepped(book, Step("taught", lesson, None, ""), learned.rulebook)
     before, after = (export_text(b).splitlines() for b in (book, more))
     assert len(set(before) ^ set(after)) < 30 < len(before)
     assert export_text(replace(book, name="new name")).splitlines()[2:] == before[2:]
@@ -64,9 +64,9 @@ def test_lessons_appended_one_by_one_make_the_same_file_as_all_at_once(tmp_path,
     with open_for_learning(path) as ledger:
         for _ in range(25):
             lesson = random_lesson(rng, ledger.book.rulebook.forest)
-            learned = ledger.teach(lesson)
+            learned = teach_in(ledger, lesson)
             if learned.trouble is not None:
-                ledger.mend(lesson, learned)
+                mend_in(ledger, lesson, learned)
             assert Skillbook.load(path) == ledger.book
         book = ledger.book
     assert any(step.how == "mended" for step in book.steps)
@@ -84,14 +84,14 @@ def test_features_analogies_and_a_changed_order_are_kept(tmp_path):
     Skillbook.new(forest, "go2", "a").save(path)
     flat = forest.situation({"ground": "flat"})
     with open_for_learning(path) as ledger:
-        ledger.teach(Lesson("omission", "walk", flat, raw={"friction": 0.9}, action=Action("walk")))
+        teach_in(ledger, Lesson("omission", "walk", flat, raw={"friction": 0.9}, action=Action("walk")))
         wrong = Lesson("omission", "creep", flat, raw={"friction": 0.2}, action=Action("creep"))
-        learned = ledger.teach(wrong)
+        learned = teach_in(ledger, wrong)
         assert learned.trouble is not None and learned.trouble.same
         proposal = propose_features(ledger.book.rulebook, learned.trouble)[0]
-        ledger.edit(accept(ledger.book.rulebook, proposal).book, "a feature was accepted")
+        ledger.edit(accept(ledger.book.rulebook, proposal).rulebook, "a feature was accepted")
         ledger.edit(
-            mirrored(ledger.book.rulebook, "walk", "back", lambda a: replace(a, skill="back"), {}).book,
+            mirrored(ledger.book.rulebook, "walk", "back", lambda a: replace(a, skill="back"), {}).rulebook,
             "an analogy",
         )
         swapped = replace(ledger.book.rulebook, rules=ledger.book.rulebook.rules[::-1], preferences=())
@@ -143,7 +143,7 @@ def test_what_no_file_can_hold_is_said_before_it_is_written(tmp_path):
         Lesson("omission", "x", situation, note="\ud800", action=Action("x")),
     ):
         with open_for_learning(path) as ledger, pytest.raises(WrongUse, match="skillbook"):
-            ledger.teach(lesson)
+            teach_in(ledger, lesson)
         assert Skillbook.load(path) == book
     with pytest.raises(WrongUse, match="skillbook"):
         replace(book, name="n" * 300).save(path)

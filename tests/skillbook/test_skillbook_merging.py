@@ -15,9 +15,8 @@ from gaitwright.knowledge.forest import Forest
 from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.modifier import Lesson, audit
 from gaitwright.knowledge.trees import tree
-from gaitwright.skillbook import Skillbook, export_text, import_text
+from gaitwright.skillbook import Skillbook, export_text, import_text, merge
 from gaitwright.skillbook.history import Step
-from gaitwright.skillbook.merging import merge
 from gaitwright.skillbook.merging.check import follows
 
 SEEDS = st.integers(0, 1 << 30)
@@ -191,11 +190,11 @@ def test_what_was_changed_by_hand_is_taken_over(base):
     back = mirrored(
         base.rulebook, "walk", "back", lambda a: replace(a, skill="back"), {"light": {"day": "night"}}
     )
-    theirs = edited(base.forked("b"), back.book)
+    theirs = edited(base.forked("b"), back.rulebook)
     merged = merge(ours, theirs)
     sound(merged)
     assert merged.book.rulebook["back"].proposed and not merged.conflicts
-    confirmed = edited(theirs, confirm(theirs.rulebook, "back", "seen").book)
+    confirmed = edited(theirs, confirm(theirs.rulebook, "back", "seen").rulebook)
     again = merge(merged.book, confirmed)
     sound(again)
     assert not again.book.rulebook["back"].proposed and not again.conflicts

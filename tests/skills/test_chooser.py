@@ -10,12 +10,12 @@ from hypothesis import strategies as st
 from gaitwright.errors import WrongUse
 from gaitwright.numerics.geometry import wrap, yaw_quaternion
 from gaitwright.signals import Route, Sensed, SkillCall
-from gaitwright.skills.chooser import KEEP_TURNING, TURN_FIRST, PlainChooser, fixed_skill
+from gaitwright.skills.chooser import KEEP_TURNING, TURN_FIRST, DefaultChooser, fixed_skill
 from gaitwright.skills.library import LIBRARY, MANY_LEGGED, fastest, gait_of, speed_scale
 from oracles import robot_called
 
 DOG = robot_called("dog")
-CHOOSER = PlainChooser(DOG)
+CHOOSER = DefaultChooser(DOG)
 angles = st.floats(-math.pi, math.pi)
 places = st.tuples(st.floats(-10.0, 10.0), st.floats(-10.0, 10.0))
 
@@ -29,7 +29,7 @@ def sensed(place=(0.0, 0.0), yaw: float = 0.0) -> Sensed:
 
 def route(*path, speed: float | None = None, arrived: bool = False, remaining: float | None = None) -> Route:
     left = math.fsum(math.dist(a, b) for a, b in zip([(0.0, 0.0), *path], path, strict=False))
-    return Route(path, left if remaining is None else remaining, speed, "numerical", arrived)
+    return Route(path, left if remaining is None else remaining, speed, arrived)
 
 
 def off(place, goal, yaw: float) -> float:
@@ -76,15 +76,14 @@ def test_at_the_goal_it_stands() -> None:
 
 
 def test_without_a_way_it_stands_and_says_why() -> None:
-    call = CHOOSER.choose(Route((), 0.0, None, "numerical", no_way="on (1, 2) stands an obstacle"), sensed())
+    call = CHOOSER.choose(Route((), 0.0, None, no_way="on (1, 2) stands an obstacle"), sensed())
     assert (call.skill, call.because) == ("stand", "on (1, 2) stands an obstacle")
 
 
 @given(places, angles)
-def test_a_choice_says_why_and_who_drives(place, yaw: float) -> None:
-    asked = Route(((3.0, 1.0),), 3.0, None, "learned")
-    call = CHOOSER.choose(asked, sensed(place, yaw))
-    assert call.because and call.driver == "learned"
+def test_a_choice_says_why_and_leaves_the_driver_to_the_mission(place, yaw: float) -> None:
+    call = CHOOSER.choose(Route(((3.0, 1.0),), 3.0, None), sensed(place, yaw))
+    assert call.because and call.driver == ""
     assert call.gait == gait_of(LIBRARY[call.skill], DOG)
 
 
@@ -131,7 +130,7 @@ def test_a_wish_beyond_every_gait_is_refused_however_near_the_goal_is(away: floa
 @pytest.mark.parametrize("speed", [0.05, 0.1, 0.15, 0.2])
 def test_six_legs_walk_and_trot(speed: float) -> None:
     robot = robot_called("hexapod")
-    call = PlainChooser(robot).choose(route((100.0, 0.0), speed=speed), sensed())
+    call = DefaultChooser(robot).choose(route((100.0, 0.0), speed=speed), sensed())
     assert call.skill in ("walk", "trot") and len(call.gait.offsets) == 6
 
 

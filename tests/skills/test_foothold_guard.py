@@ -5,16 +5,16 @@ import math
 import numpy as np
 import pytest
 
-from gaitwright.ground.foothold_map import Footing
 from gaitwright.ground.scene import load_scene
 from gaitwright.numerics.geometry import yaw_quaternion
+from gaitwright.perception.known_ground import map_of
 from gaitwright.signals import Route, Sensed
 from gaitwright.skills.chooser import fixed_skill
-from gaitwright.skills.foothold_guard import Cautious
+from gaitwright.skills.foothold_guard import FootholdGuard
 from oracles import robot_called
 
 DOG = robot_called("dog")
-NOWHERE = Route((), 0.0, None, "numerical")
+NOWHERE = Route((), 0.0, None)
 
 
 def at(scene, x: float, yaw: float = 0.0) -> Sensed:
@@ -26,8 +26,8 @@ def at(scene, x: float, yaw: float = 0.0) -> Sensed:
 
 def asked(name: str, x: float, speed: float = 0.4, yaw: float = 0.0, route: Route = NOWHERE):
     scene = load_scene(name)
-    cautious = Cautious(fixed_skill(DOG, "trot", speed, 0.0, 0.0, "numerical"), DOG, Footing.of(scene, DOG))
-    return cautious.choose(route, at(scene, x, yaw))
+    cautious = FootholdGuard(fixed_skill(DOG, "trot", speed, 0.0, 0.0, "numerical"), DOG)
+    return cautious.choose(route, at(scene, x, yaw), ground=map_of(scene, DOG))
 
 
 @pytest.mark.parametrize(
@@ -53,7 +53,7 @@ def test_it_may_turn_away_and_walk_back() -> None:
 
 
 def test_it_looks_no_farther_than_the_next_corner_of_its_path() -> None:
-    near = Route(((0.85, 0.0), (0.85, 3.0)), 3.0, 0.4, "numerical")
+    near = Route(((0.85, 0.0), (0.85, 3.0)), 3.0, 0.4)
     assert asked("gap:0.6", 0.8, route=near).halt is None
 
 
@@ -62,5 +62,5 @@ def test_over_a_gap_the_other_bank_is_no_wall() -> None:
     level = at(scene, 1.0).position_w[2]
     over = at(scene, 1.3)
     over.position_w[2] = level
-    cautious = Cautious(fixed_skill(DOG, "walk", 0.25, 0.0, 0.0, "numerical"), DOG, Footing.of(scene, DOG))
-    assert cautious.choose(NOWHERE, over).halt is None
+    cautious = FootholdGuard(fixed_skill(DOG, "walk", 0.25, 0.0, 0.0, "numerical"), DOG)
+    assert cautious.choose(NOWHERE, over, ground=map_of(scene, DOG)).halt is None

@@ -17,16 +17,20 @@ from gaitwright.knowledge.modifier import Lesson, learn
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.knowledge.trees import tree
 from gaitwright.signals import Scan
-from gaitwright.skills.chooser import PlainChooser
+from gaitwright.skills.chooser import DefaultChooser
 from gaitwright.skills.library import speed_scale
-from gaitwright.skills.rule_chooser import DOING, RuleChooser, carried_out
-from gaitwright.skills.situation import FOREST, situation
+from gaitwright.skills.rule_chooser import DOING, RuleChooser, carry_out
+from gaitwright.skills.situation import FOREST, measured, named
 from oracles import robot_called
 
 AHEAD = route((5.0, 0.0), speed=0.4 * speed_scale(DOG))
 STAIRS = replace(AHEAD, ahead=Scan(slope=0.3, step_up=0.3 * DOG.height))
 SIDEWAYS = route((0.0, 5.0))
 TURN = Action("turn-in-place", until="turn is straight on", adds=(("turns", 1.0),))
+
+
+def situation(robot, way, here):
+    return named(measured(robot, way, here))
 
 
 def taught(*lessons: tuple[Action, object]) -> Rulebook:
@@ -36,7 +40,7 @@ def taught(*lessons: tuple[Action, object]) -> Rulebook:
         blame = {"climb": "road", "turn-in-place": "turn"}.get(action.skill, "")
         learned = teach(book, Lesson("omission", action.skill, at, blame=blame, action=action))
         assert learned.trouble is None
-        book = learned.book
+        book = learned.rulebook
     return book
 
 
@@ -64,7 +68,7 @@ def test_the_rule_is_the_one_that_consulting_finds(place, yaw, speed, left):
 def test_it_goes_as_fast_as_wished_within_the_rule_and_slower_before_the_goal(wish, left, a, b):
     slow, fast = sorted((a, b))
     way = route((5.0, 0.0), speed=wish, remaining=left)
-    call = carried_out(DOG, Action("trot", slow, fast), way, sensed())
+    call = carry_out(DOG, Action("trot", slow, fast), way, sensed())
     k = speed_scale(DOG)
     brake = max(0.1 * k, 0.6 / k * left)
     assert call.velocity == (pytest.approx(min(fast * k, max(wish, slow * k), brake)), 0.0)
@@ -86,7 +90,7 @@ def test_where_no_rule_fires_the_plain_rules_do_and_that_is_said(place, yaw):
     here = sensed(place, yaw)
     call, plainly = (
         RuleChooser(DOG, Rulebook(FOREST)).choose(AHEAD, here),
-        PlainChooser(DOG).choose(AHEAD, here),
+        DefaultChooser(DOG).choose(AHEAD, here),
     )
     assert (call.skill, call.velocity, call.turn) == (plainly.skill, plainly.velocity, plainly.turn)
     assert call.because == f"no rule fires; plainly: {plainly.because}"
@@ -97,7 +101,7 @@ def test_a_skill_that_a_robot_lacks_is_left_to_the_plain_rules():
     book = learn(
         Rulebook(FOREST),
         Lesson("omission", "run", situation(hexapod, AHEAD, six()), action=Action("run", 0.1, 2.0)),
-    ).book
+    ).rulebook
     call = RuleChooser(hexapod, book).choose(replace(AHEAD, speed=0.1), six())
     assert call.skill in ("walk", "trot") and "wants a skill it does not have" in call.because
 

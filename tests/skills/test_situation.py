@@ -12,12 +12,16 @@ from gaitwright.knowledge.memory import Action
 from gaitwright.model.kinematics import angles, feet
 from gaitwright.numerics.geometry import GRAVITY, rotation
 from gaitwright.signals import Scan
-from gaitwright.skills.rule_chooser import carried_out
-from gaitwright.skills.situation import FOREST, READ_FROM, effort, measured, named, situation, turn_of
+from gaitwright.skills.rule_chooser import carry_out
+from gaitwright.skills.situation import FOREST, READ_FROM, measured, named, torque_utilisation, turn_of
 from oracles import robot_called
 
 INSECT = robot_called("insect")
 numbers = st.floats(0.0, 2.0)
+
+
+def situation(robot, way, here, call=None):
+    return named(measured(robot, way, here, call), call)
 
 
 def seen(robot=DOG, **scan):
@@ -112,11 +116,11 @@ def test_effort_is_the_static_torque_of_the_loads(name):
                 ends.append((R @ feet(robot, q)[leg])[2])
             torque = here.load[leg] * (ends[0] - ends[1]) / 2e-5
             most = max(most, abs(torque) / robot.tau_max[leg, joint])
-    assert effort(robot, here) == pytest.approx(most, rel=1e-6) and most > 0.0
+    assert torque_utilisation(robot, here) == pytest.approx(most, rel=1e-6) and most > 0.0
 
 
 def test_what_it_does_is_the_kind_of_motion():
     kinds = {"stand": "standing", "turn-in-place": "turning", "climb": "walking", "trot": "trotting"}
     for skill, kind in (kinds | {"gallop": "flying"}).items():
-        call = replace(carried_out(DOG, Action("trot", 0.0, 1.0), route((5.0, 0.0)), sensed()), skill=skill)
+        call = replace(carry_out(DOG, Action("trot", 0.0, 1.0), route((5.0, 0.0)), sensed()), skill=skill)
         assert situation(DOG, route((5.0, 0.0)), sensed(), call)["doing"] == kind

@@ -1,7 +1,8 @@
 """What a gait asks of a robot's motors and legs, before it walks: torques, rates, forces, reach.
 
 The desired cycle of the gait, swaying and bobbing as the coordinator will have it, goes through the numerical
-controller as if the motors had no limits; what comes out is held against the limits that they have.
+controller as if the motors had no limits; what comes out is held against the limits that they have. The feet
+follow the leg cycle that they follow under the coordinator: the gait's own, or another one that is given.
 """
 
 import math
@@ -12,8 +13,8 @@ from jaxtyping import Bool, Float
 
 from gaitwright.assess.torque_profiles import torque_profiles
 from gaitwright.errors import WrongUse
-from gaitwright.gait.cycle_numbers import check_numbers
 from gaitwright.gait.desired_cycle import DesiredCycle, Manner, check, desired_cycle
+from gaitwright.gait.leg_cycles.leg_cycle import LegCycle
 from gaitwright.gait.reference import periodic_reference
 from gaitwright.model.kinematics import HINGES
 from gaitwright.model.robot import Robot
@@ -33,15 +34,16 @@ STRAINED = math.radians(5.0)
 """Joints may be asked this far beyond their limits [rad]: the foot then stands a little elsewhere."""
 PARTS = 9
 """Halvings of the range in which the fastest speed is sought."""
-HOPELESS = 2.0
+HOPELESS = 2.1
 """Motors that would have to give more than this many times their limit for a gait do not walk it.
 
-In simulation gaits give way between 1.4 and 2.1 times: momentum gets a body over what is missing.
+In simulation gaits give way between 1.4 and 2.1 times: momentum gets a body over what is missing. The
+hexapod climbs at 2.08.
 """
 
 
 @dataclass(frozen=True)
-class Needs:
+class MotorRequirements:
     """What a gait needs at one velocity; arrays by leg and joint (hip 1, hip 2, knee)."""
 
     robot: Robot
@@ -72,11 +74,6 @@ class Needs:
         forward, left, turn = map(float, self.command)
         return words(self.gait, (forward, left, turn))
 
-    @property
-    def by_joint(self) -> Float[np.ndarray, "3"]:
-        """The lasting torques at hip 1, hip 2 and knee, of the leg that needs most [N·m]."""
-        return self.lasting.max(axis=0)
-
     def shortage(self, leeway: float = 1.0) -> str | None:
         """What is missing, as a sentence; `None` where motors times `leeway` and joints suffice."""
         short = self.lasting / self.robot.tau_max
@@ -93,10 +90,17 @@ class Needs:
         return None
 
 
-def needs(robot: Robot, gait: Gait, velocity: tuple[float, float], turn: float = 0.0) -> Needs:
+def motor_requirements(
+    robot: Robot,
+    gait: Gait,
+    velocity: tuple[float, float],
+    turn: float = 0.0,
+    cycle: LegCycle | None = None,
+) -> MotorRequirements:
     """What a gait needs at a velocity (forward and left, m/s) and a yaw rate (rad/s) on level ground.
 
-    Raises `WrongUse` where the gait does not fit the robot, and where a foot cannot be reached.
+    `cycle`: the leg cycle of the feet; `None`: the gait's own. Raises `WrongUse` where the gait does not fit
+    the robot, and where a foot cannot be reached.
     """
     weight = robot.total_mass * GRAVITY
     free = replace(
@@ -105,19 +109,19 @@ def needs(robot: Robot, gait: Gait, velocity: tuple[float, float], turn: float =
         q_min=np.full_like(robot.q_min, -FREE),
         q_max=np.full_like(robot.q_max, FREE),
     )
-    cycle = desired_cycle(free, gait, velocity, turn, Manner(sways=True), STEPS)
-    efforts = torque_profiles([cycle], cores=1)[0]
+    motion = desired_cycle(free, gait, velocity, turn, Manner(sways=True, cycle=cycle), STEPS)
+    efforts = torque_profiles([motion], cores=1)[0]
     tau = np.abs(efforts.tau)
-    return Needs(
+    return MotorRequirements(
         robot=robot,
         gait=gait,
-        command=cycle.command,
+        command=motion.command,
         torque=tau.max(axis=0),
-        lasting=np.maximum(lasting(tau, cycle.stance), lasting(tau, ~cycle.stance)),
-        rate=np.abs(cycle.qd).max(axis=0),
+        lasting=np.maximum(lasting(tau, motion.stance), lasting(tau, ~motion.stance)),
+        rate=np.abs(motion.qd).max(axis=0),
         force=np.linalg.norm(efforts.forces_w, axis=2).max(axis=0),
-        reach=spare_length(cycle).min(axis=0),
-        room=np.minimum(cycle.q - robot.q_min, robot.q_max - cycle.q).min(axis=0),
+        reach=spare_length(motion).min(axis=0),
+        room=np.minimum(motion.q - robot.q_min, robot.q_max - motion.q).min(axis=0),
     )
 
 
@@ -143,18 +147,22 @@ def spare_length(cycle: DesiredCycle) -> Float[np.ndarray, "steps legs"]:
 
 
 def shortage(
-    robot: Robot, gait: Gait, velocity: tuple[float, float], turn: float = 0.0, leeway: float = 1.0
+    robot: Robot,
+    gait: Gait,
+    velocity: tuple[float, float],
+    turn: float = 0.0,
+    leeway: float = 1.0,
+    cycle: LegCycle | None = None,
 ) -> str | None:
     """What a robot lacks for a gait at a velocity, as a sentence; `None` where it has all.
 
-    `leeway`: how many times their limits the motors are taken to give. Raises `WrongUse` only where the
-    gait is none of this robot's.
+    `leeway`: how many times their limits the motors are taken to give; `cycle`: the leg cycle of the feet;
+    `None`: the gait's own. Raises `WrongUse` only where the gait is none of this robot's.
     """
     command = np.array([*velocity, turn], dtype=float)
-    check(robot, gait, command, STEPS)
-    check_numbers(gait, command, None, None)
+    check(robot, gait, command, Manner(), STEPS)
     try:
-        found = needs(robot, gait, velocity, turn)
+        found = motor_requirements(robot, gait, velocity, turn, cycle)
     except WrongUse as error:  # all else was checked: a foot cannot be reached
         return f"{words(gait, (*velocity, turn))} is beyond the legs: {str(error).partition(', ')[2]}"
     return found.shortage(leeway)

@@ -8,18 +8,22 @@ from typing import Literal
 
 import numpy as np
 
-from gaitwright.assess.motor_requirements import HOPELESS, fastest_supported, needs, shortage
-from gaitwright.ground.scene import load_scene
+from gaitwright.assess.motor_requirements import (
+    HOPELESS,
+    fastest_supported,
+    motor_requirements,
+    shortage,
+)
 from gaitwright.locomotion import Brain
 from gaitwright.model.kinematics import HINGES, angles
 from gaitwright.model.robot import Robot
 from gaitwright.plant.registry import make_plant
-from gaitwright.record.recording import INTERRUPTED, Recording, walk
+from gaitwright.record.recording import INTERRUPTED, Recording
+from gaitwright.session import DT, Session, record, scene_for
 from gaitwright.signals import Mission
 from gaitwright.skills.chooser import fixed_skill
 from gaitwright.skills.library import (
     LIBRARY,
-    REFERENCE_HEIGHT,
     Skill,
     fastest,
     find_skill,
@@ -29,8 +33,6 @@ from gaitwright.skills.library import (
 )
 
 Verdict = Literal["ok", "limited", "no"]
-DT = 0.002
-"""Control period [s]."""
 STARTS, SECONDS = 3, 6.0
 """Starts of each trial, and how long each lasts at a body height of 0.29 m [s]."""
 TURN = 0.8
@@ -43,8 +45,6 @@ ROOMY = math.radians(10.0)
 """A stance nearer than this to a joint limit [rad] has little room."""
 ROUND = 2.0 * math.pi * (1.0 - 1e-6)
 """A joint that may turn this far has no limits [rad]."""
-TALL = 0.6
-"""Scenes are made for robots up to this height [m]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -222,7 +222,7 @@ def of_motors(robot: Robot, skill: Skill) -> Finding:
         # A body that stands has no momentum to get over what is missing.
         hopeless = gait.duty >= 1.0 or shortage(robot, gait, *how, leeway=HOPELESS) is not None
         return Finding("motors", skill.name, "no" if hopeless else "limited", missing)
-    found = needs(robot, gait, *how)
+    found = motor_requirements(robot, gait, *how)
     share = f"{found.what} takes up to {found.load:.0%} of a motor's torque"
     if skill.fastest == 0.0 or skill.name == "turn":
         return Finding("motors", skill.name, "ok", share)
@@ -242,13 +242,12 @@ def of_motors(robot: Robot, skill: Skill) -> Finding:
 def tried(robot: Robot, task: Task, seconds: float, seed: int) -> Recording:
     """One start of a task on flat ground; its time and speeds grow with the robot's size."""
     scale = speed_scale(robot)
-    scene = load_scene("flat", seed, 1.0 if robot.height <= TALL else round(robot.height / REFERENCE_HEIGHT))
+    scene = scene_for(robot, "flat", seed)
     speed = None if task.speed is None else task.speed * scale
     chooser = fixed_skill(robot, task.skill, speed, task.left * scale, task.turn / scale, "numerical")
     plant = make_plant("mujoco", robot, scene, DT)
-    recording = walk(
-        Brain.of(robot, scene, chooser, DT), plant, Mission(()), seconds * scale, seed, scene=scene.name
-    )
+    session = Session(Brain.of(robot, scene, chooser, DT), plant, Mission(()), seconds * scale, seed)
+    recording = record(session, seed, scene.name)
     if recording.stopped_because == INTERRUPTED:
         raise KeyboardInterrupt
     return recording

@@ -1,6 +1,6 @@
 """Every claim of the project, measured: one module per claim, peers in the same run.
 
-A claim's module has `measure(session)`, which yields its figures one after the other, and `NOTE` where
+A claim's module has `measure(context)`, which yields its figures one after the other, and `NOTE` where
 something has to be known about how they are measured.
 """
 

@@ -42,7 +42,7 @@ class Voice:
 
 
 @dataclass
-class Session:
+class Context:
     """One run of the bench."""
 
     workers: Workers
@@ -51,7 +51,7 @@ class Session:
     """The first of the seeds that vary the starts."""
     voice: Voice = field(default_factory=Voice)
 
-    def __enter__(self) -> "Session":
+    def __enter__(self) -> "Context":
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from importlib import import_module
 
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.machine import machine
 from gaitwright.bench.measurement import Figure
 from gaitwright.bench.table import Result, Section, show, write
@@ -21,10 +21,10 @@ def measure_claims(
     sections: list[Section] = []
     finished = False
     try:
-        with Workers(workers) as processes, Session(processes, quick, seed) as session:
-            session.warm_up()
+        with Workers(workers) as processes, Context(processes, quick, seed) as context:
+            context.warm_up()
             for group, claim in claims:
-                measure_claim(session, group, claim, sections)
+                measure_claim(context, group, claim, sections)
         finished = True
     except KeyboardInterrupt:
         pass
@@ -37,10 +37,10 @@ def measure_claims(
     return 0 if result.reached else 1
 
 
-def measure_claim(session: Session, group: str, claim: str, sections: list[Section]) -> None:
+def measure_claim(context: Context, group: str, claim: str, sections: list[Section]) -> None:
     """Adds a claim's section, which fills while it is measured."""
     module = import_module(f"gaitwright.bench.claims.{claim}")
     figures: list[Figure] = []  # filled one by one: an interrupt keeps what is there
     sections.append(Section(claim, group, figures, getattr(module, "NOTE", "")))
-    for figure in module.measure(session):
+    for figure in module.measure(context):
         figures.append(figure)

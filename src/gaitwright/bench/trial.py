@@ -11,37 +11,20 @@ import numpy as np
 
 from gaitwright.control.numerical import Method
 from gaitwright.description.load import load_robot
-from gaitwright.ground.scene import Scene, load_scene
-from gaitwright.locomotion import Brain, Lap
+from gaitwright.ground.scene import Scene
+from gaitwright.locomotion import Brain
 from gaitwright.model.perturb import perturbed
 from gaitwright.model.robot import Robot
-from gaitwright.numerics.geometry import heading, rotation
-from gaitwright.plant.registry import SimulatedPlant, make_plant
+from gaitwright.plant.registry import make_plant
 from gaitwright.record.metrics import Report
-from gaitwright.record.recording import INTERRUPTED, Recording, walk
+from gaitwright.record.recording import INTERRUPTED, Recording
+from gaitwright.session import DT, Push, Session, record, scene_for
 from gaitwright.signals import Mission, Route, Sensed, SkillCall
 from gaitwright.skills.chooser import fixed_skill
+from gaitwright.stages import Map, Now
 
-DT = 0.002
-"""Control period [s]: 500 Hz."""
 STILL = 0.01
 """Velocities below this are not asked for [m/s, rad/s]."""
-
-
-@dataclass(frozen=True, slots=True)
-class Push:
-    """A force on the body for a moment, at a chosen phase of the gait."""
-
-    impulse: float
-    """Per mass of the robot [N·s/kg]."""
-    direction: float
-    """From straight ahead, counter-clockwise [°]."""
-    after: float
-    """Earliest time [s]; it begins when the gait next comes to `phase`."""
-    phase: float
-    """Phase of the gait, in [0, 1)."""
-    lasts: float = 0.1
-    """[s]"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,13 +100,15 @@ class Outcome:
 def simulate(trial: Trial) -> Outcome:
     """Runs one trial; the same trial gives the same outcome in any process."""
     robot = robot_named(trial.robot)
-    scene = load_scene(trial.scene, trial.seed)
+    scene = scene_for(robot, trial.scene, trial.seed)
     brain = brain_for(trial, robot, scene)
     plant = make_plant(trial.plant, robot, scene, DT)
     mission = Mission(() if trial.goal is None else (trial.goal,), driver=trial.driver)
-    pusher = Pusher(plant, robot, trial.push) if trial.push else None
     cpu, wall = process_time(), perf_counter()
-    recording = walk(brain, plant, mission, trial.seconds, trial.seed, scene=scene.name, watch=pusher)
+    session = Session(brain, plant, mission, trial.seconds, trial.seed)
+    if trial.push:
+        session.push(trial.push)
+    recording = record(session, trial.seed, scene.name)
     cpu, wall = process_time() - cpu, perf_counter() - wall
     if recording.stopped_because == INTERRUPTED:
         raise KeyboardInterrupt
@@ -179,36 +164,5 @@ class InTurn:
     second: SkillCall
     at: float
 
-    def choose(self, route: Route, sensed: Sensed, now: SkillCall | None = None) -> SkillCall:
+    def choose(self, route: Route, sensed: Sensed, now: Now = None, ground: Map = None) -> SkillCall:
         return self.first if sensed.time < self.at else self.second
-
-
-class Pusher:
-    """Pushes the robot once, when its time and the phase of its gait have come; called with every lap."""
-
-    def __init__(self, plant: SimulatedPlant, robot: Robot, push: Push) -> None:
-        self.plant, self.robot, self.push = plant, robot, push
-        self.ends: float | None = None
-        self.over = False
-
-    def __call__(self, lap: Lap) -> None:
-        now = lap.sensed.time
-        if self.over:
-            return
-        if self.ends is None:
-            if now >= self.push.after - 1e-9 and self.is_phase(lap):
-                self.begin(lap)
-        elif now >= self.ends - 1e-9:
-            self.plant.push((0.0, 0.0, 0.0))
-            self.over = True
-
-    def is_phase(self, lap: Lap) -> bool:
-        """Whether the gait has come to the push's phase with this lap."""
-        return (lap.target.phase - self.push.phase) % 1.0 < 1.5 * DT / lap.call.gait.period
-
-    def begin(self, lap: Lap) -> None:
-        """The force from now on, turned with the robot's heading."""
-        force = self.push.impulse * self.robot.total_mass / self.push.lasts
-        towards = heading(rotation(lap.sensed.orientation_wb)) + math.radians(self.push.direction)
-        self.plant.push((force * math.cos(towards), force * math.sin(towards), 0.0))
-        self.ends = lap.sensed.time + self.push.lasts

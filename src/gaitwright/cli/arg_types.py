@@ -16,6 +16,12 @@ DRIVERS = {
 """Who can compute the torques now."""
 LATER = ("learned",)
 """Drivers that will exist."""
+BOOK_TASKS = {
+    "merge": "two books to one",
+    "export": "a book as text",
+    "import": "a book from text",
+}
+"""What `gaitwright books` can do."""
 LONGEST = 3600.0
 """Longest time to simulate in one go [s]; a recording takes 0.5 MB of memory per second."""
 
@@ -83,6 +89,12 @@ def distribution(text: str) -> str:
 def plant(text: str) -> str:
     if text not in PLANTS:
         raise unknown("plant", text, PLANTS)
+    return text
+
+
+def book_task(text: str) -> str:
+    if text not in BOOK_TASKS:
+        raise unknown("task of books", text, BOOK_TASKS)
     return text
 
 

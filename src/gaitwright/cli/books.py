@@ -1,29 +1,170 @@
-"""The door to rulebooks in files."""
+"""`gaitwright books`: two skillbooks joined to one; a skillbook as text, and back."""
 
+import json
+import sys
+from argparse import Namespace
+from dataclasses import asdict, replace
 from pathlib import Path
 
-from gaitwright.errors import BadFile
-from gaitwright.knowledge.json_form import MAX_BYTES, loads
-from gaitwright.knowledge.rules import Rulebook
-from gaitwright.skillbook.book import Skillbook
+from gaitwright.cli.book_files import SQLITE, content_of, new_file, skillbook_of
+from gaitwright.cli.console import remark, show_pairs, show_prose, working
+from gaitwright.cli.explain_text import counted
+from gaitwright.cli.output import check_json, write_json, write_whole
+from gaitwright.errors import BadFile, WrongUse
+from gaitwright.knowledge.json_form import loads
+from gaitwright.skillbook.book import Skillbook, content_hash, export_text, import_text
+from gaitwright.skillbook.merging.merge import Merged, merge
 
-SQLITE = b"SQLite format 3"
-"""How a skillbook begins; anything else is taken for a rulebook as JSON."""
+FILES = {"merge": ("OURS", "THEIRS"), "export": ("BOOK",), "import": ("TEXT",)}
+"""The files that each task is given."""
+
+REPLAYED = {
+    True: "its lessons, taken again, make these rules",
+    False: "its lessons, taken again, make other rules: the text was changed, or another version taught it",
+}
 
 
-def rulebook_of(path: str) -> Rulebook:
-    """The rulebook in a skillbook, or in a JSON file. Raises `BadFile` for a file that is none."""
-    file = Path(path)
-    if not file.is_file():
-        raise BadFile(f"no file {path}: a rulebook is wanted")
-    if file.stat().st_size > MAX_BYTES:
-        raise BadFile(f"{path} is larger than the limit of {MAX_BYTES / 1e6:g} MB")
-    try:
-        with file.open("rb") as opened:
-            is_book = opened.read(len(SQLITE)) == SQLITE
-        if is_book:
-            return Skillbook.load(file).rulebook
-        content = file.read_bytes()
-    except OSError as error:
-        raise BadFile(f"{path} cannot be read: {error.strerror}") from None
-    return loads(content, path)
+def run(args: Namespace) -> int:
+    check_json(args.json)
+    wanted = FILES[args.task]
+    if len(args.files) != len(wanted):
+        given = " ".join(args.files) or "none"
+        raise WrongUse(f"books {args.task} takes {len(wanted)}: {' '.join(wanted)}; got {given}")
+    if args.base is not None and args.task != "merge":
+        raise WrongUse(f"--base is the book that two come from: books {args.task} has no use for it")
+    {"merge": merge_books, "export": export_book, "import": import_book}[args.task](args)
+    return 0
+
+
+# --- two to one ------------------------------------------------------------------------------------
+def merge_books(args: Namespace) -> None:
+    """Both books in a new one, and every sentence on what that does not do as one of them."""
+    out = new_file(out_of(args), "skillbook")
+    ours, theirs = (skillbook_of(path) for path in args.files)
+    base = None if args.base is None else skillbook_of(args.base)
+    with working(f"joining {args.files[0]} and {args.files[1]}"):
+        merged = merge(ours, theirs, base)
+        book = replace(merged.book, name=out.stem)
+    book.save(out)
+    tell_merge(ours, theirs, replace(merged, book=book), args)
+
+
+def tell_merge(ours: Skillbook, theirs: Skillbook, merged: Merged, args: Namespace) -> None:
+    """What was joined, what is in conflict, and what can be done about it."""
+    book, aside = merged.book, args.json == "-"
+    mine, other = args.files
+    known = {rule.name for rule in ours.rulebook.rules}
+    rules = [rule.name for rule in book.rulebook.rules]
+    new = [name for name in rules if name not in known]
+    steps = len(book.steps) - len(ours.steps)
+    figures = {
+        "book": args.out,
+        "ours": mine,
+        "theirs": other,
+        "rules": rules,
+        "new_rules": new,
+        "new_steps": steps,
+        "conflicts": [asdict(conflict) for conflict in merged.conflicts],
+        "hash": content_hash(book),
+    }
+    write_json(args.json, json.dumps(figures, indent=2, ensure_ascii=False))
+    rows = [
+        ("ours", f"{mine}, {introduced(ours)}"),
+        ("theirs", f"{other}, {introduced(theirs)}"),
+        (
+            "taken from theirs",
+            counted(steps, "step") if steps else "nothing: ours has all that it was taught",
+        ),
+        ("new rules", ", ".join(new) or "none"),
+        ("conflicts", str(len(merged.conflicts)) if merged.conflicts else "none"),
+    ]
+    show_pairs(f"{args.out} holds both", rows, to_stderr=aside)
+    if merged.conflicts:
+        for conflict in merged.conflicts:
+            show_prose(f"– {conflict.sentence}.", "  ", to_stderr=aside)
+        show_pairs("", what_to_do(merged, args), to_stderr=aside)
+
+
+def introduced(book: Skillbook) -> str:
+    """What a book is called, on which robot it was taught, and how much it knows."""
+    rules = book.rulebook
+    about = f"{counted(len(rules.rules), 'rule')} from {counted(rules.lessons, 'lesson')}"
+    return f"called {book.name or 'nothing'}, of {book.robot or 'no robot'}: {about}"
+
+
+def what_to_do(merged: Merged, args: Namespace) -> list[tuple[str, str]]:
+    """Commands that tell more of the conflicts, or turn them round."""
+    named = {rule.name for rule in merged.book.rulebook.rules}
+    about = [conflict.rule for conflict in merged.conflicts if conflict.rule in named]
+    rows = [("theirs instead", f"gaitwright books merge {args.files[1]} {args.files[0]} --out NEW")]
+    if about:
+        rows.append(("look closer", f"gaitwright explain {args.out} --history {about[0]!r}"))
+    return rows
+
+
+# --- text ------------------------------------------------------------------------------------------
+def export_book(args: Namespace) -> None:
+    """The book as text, to a new file or the standard output."""
+    to_screen = args.out in (None, "-")
+    if to_screen and args.json == "-":
+        raise WrongUse("text and --json cannot both go to the standard output: name a file with --out")
+    out = None if to_screen else new_file(args.out, "file")
+    book = skillbook_of(args.files[0])
+    content = export_text(book)
+    if out is None:
+        sys.stdout.write(content)
+    else:
+        write_whole(out, content)
+        remark(f"{args.files[0]} is text in {out}: {content.count(chr(10))} lines")
+    write_json(args.json, json.dumps(facts_of(book, args.files[0]), indent=2, ensure_ascii=False))
+
+
+def import_book(args: Namespace) -> None:
+    """The book of a text in a new file; rules as JSON become a book that begins with them."""
+    out = new_file(out_of(args), "skillbook")
+    source = args.files[0]
+    content = content_of(source, "what `gaitwright books export` wrote")
+    if content.startswith(SQLITE):
+        raise BadFile(f"{source} is a skillbook already: only text is imported")
+    if content.lstrip()[:1] == b"{":
+        book = Skillbook.new(loads(content, source), name=Path(source).stem)
+    else:
+        try:
+            book = import_text(content.decode(), source)
+        except UnicodeDecodeError as error:
+            raise BadFile(f"{source} is no text: {error.reason} at byte {error.start}") from None
+    with working("taking its lessons again", worth_a_line=False):
+        same = book.replayed() == book.rulebook
+    book.save(out)
+    write_json(args.json, json.dumps(facts_of(book, args.out), indent=2, ensure_ascii=False))
+    rules = book.rulebook
+    rows = [
+        ("name", book.name),
+        ("rules", ", ".join(rule.name for rule in rules.rules) or "none"),
+        ("lessons", str(rules.lessons)),
+        ("history", REPLAYED[same]),
+        ("next", f"gaitwright explain {args.out}"),
+    ]
+    show_pairs(f"{args.out} holds what {source} says", rows, to_stderr=args.json == "-")
+
+
+def facts_of(book: Skillbook, path: str) -> dict:
+    """A book as figures."""
+    rules = book.rulebook
+    return {
+        "book": path,
+        "name": book.name,
+        "robot": book.robot,
+        "rules": [rule.name for rule in rules.rules],
+        "lessons": rules.lessons,
+        "steps": len(book.steps),
+        "ancestors": [asdict(ancestor) for ancestor in book.ancestors],
+        "hash": content_hash(book),
+    }
+
+
+def out_of(args: Namespace) -> str:
+    """The new book's file. Raises `WrongUse` where none is named."""
+    if args.out in (None, "-"):
+        raise WrongUse(f"books {args.task} makes a new skillbook: name its file with --out")
+    return args.out

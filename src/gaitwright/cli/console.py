@@ -1,6 +1,7 @@
 """What the user sees: tables on the standard output, progress and remarks on the standard error."""
 
 import sys
+import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from time import perf_counter
@@ -18,6 +19,8 @@ REFRESH = 0.2
 """The moving bar is drawn this often [s]."""
 WIDE = 180
 """Columns of a table that goes to a file or a pipe."""
+PROSE = 100
+"""Letters of a line of prose."""
 
 
 def console(file=None) -> Console:
@@ -56,6 +59,13 @@ def show_pairs(title: str, pairs: Iterable[tuple[str, str]], to_stderr: bool) ->
     for pair in pairs:
         table.add_row(*pair)
     screen.print(table)
+
+
+def show_prose(text: str, indent: str = "", to_stderr: bool = False) -> None:
+    """A paragraph of at most `PROSE` letters a line."""
+    screen = console(sys.stderr if to_stderr else sys.stdout)
+    lines = textwrap.wrap(text, min(PROSE, screen.width), initial_indent=indent, subsequent_indent=2 * indent)
+    screen.print("\n".join(lines), markup=False)
 
 
 @contextmanager

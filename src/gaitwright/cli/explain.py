@@ -2,25 +2,24 @@
 
 import json
 import re
-import textwrap
 from argparse import Namespace
 from dataclasses import asdict
 from importlib import import_module
 from pathlib import Path
 
-from gaitwright.cli.books import rulebook_of
-from gaitwright.cli.console import console, remark, show_pairs, show_table, working
+from gaitwright.cli.book_files import rulebook_of
+from gaitwright.cli.console import console, remark, show_pairs, show_prose, show_table, working
 from gaitwright.cli.explain_text import (
     because,
     changes,
     facts_of,
+    history_lines,
     movers,
     opening,
     others,
     reasons_against,
     sentence_of,
     title,
-    told_history,
     verdict,
 )
 from gaitwright.cli.output import check_json, write_json
@@ -33,8 +32,6 @@ from gaitwright.knowledge.rules import Rulebook, status
 
 RULES = ("", "rule", "status", "right", "wrong", "it …")
 MARKS = ("tree", "here", "▲ upper mark", "moved there by", "▼ lower mark", "moved there by")
-WIDE = 100
-"""Letters of a line of prose."""
 
 
 def run(args: Namespace) -> int:
@@ -43,106 +40,101 @@ def run(args: Namespace) -> int:
         import_module("gaitwright.cli.skills").check_picture(args.out)
     if args.at is not None and not args.recording:
         raise WrongUse("--at is a moment of a recording: name its file with --recording")
-    book = rulebook_of(args.book)
+    rulebook = rulebook_of(args.book)
     name = args.rule or args.why_not or args.history or ""
     if name:
-        book[name]
+        rulebook[name]
     figures: dict = {
         "book": args.book,
-        "lessons": book.lessons,
-        "trees": {tree.name: tree.leaves for tree in book.forest.trees},
-        "rules": [facts_of(book, rule) for rule in book.rules],
+        "lessons": rulebook.lessons,
+        "trees": {tree.name: tree.leaves for tree in rulebook.forest.trees},
+        "rules": [facts_of(rulebook, rule) for rule in rulebook.rules],
     }
     aside, decision = args.json == "-", None
     if args.situation or args.recording or args.why_not:
-        at = situation_asked(book, args, figures)
-        decision = consult(book, at.situation)
-        tell_decision(book, at, decision, args.rule or args.why_not or "", figures, aside)
+        at = situation_asked(rulebook, args, figures)
+        decision = consult(rulebook, at.situation)
+        tell_decision(rulebook, at, decision, args.rule or args.why_not or "", figures, aside)
     elif args.rule:
-        tell_rule(book, name, aside)
+        tell_rule(rulebook, name, aside)
     elif not args.history:
-        tell_book(book, args.book, aside)
+        tell_book(rulebook, args.book, aside)
     if args.history:
-        tell_history(book, name, figures, aside)
+        tell_history(rulebook, name, figures, aside)
     if args.plot or args.out is not None:
-        picture(args, book, name, decision, figures)
+        picture(args, rulebook, name, decision, figures)
     write_json(args.json, json.dumps(figures, indent=2, ensure_ascii=False))
     return 0
 
 
-def prose(text: str, indent: str = "") -> None:
-    """A paragraph on the standard output."""
-    screen = console()
-    lines = textwrap.wrap(text, min(WIDE, screen.width), initial_indent=indent, subsequent_indent=2 * indent)
-    screen.print("\n".join(lines), markup=False)
-
-
 # --- what the book knows ---------------------------------------------------------------------------
-def tell_book(book: Rulebook, path: str, aside: bool) -> None:
+def tell_book(rulebook: Rulebook, path: str, aside: bool) -> None:
     """All rules in their order."""
     if aside:
         return
-    prose(opening(book, Path(path).name))
+    show_prose(opening(rulebook, Path(path).name))
     rows = [
         (str(k), rule.name, status(rule), str(len(rule.positives)), str(len(rule.negatives)),
-         sentence_of(book, rule))
-        for k, rule in enumerate(book.rules, start=1)
+         sentence_of(rulebook, rule))
+        for k, rule in enumerate(rulebook.rules, start=1)
     ]  # fmt: skip
     if rows:
         show_table(RULES, rows, right=("", "right", "wrong"))
 
 
-def tell_rule(book: Rulebook, name: str, aside: bool) -> None:
+def tell_rule(rulebook: Rulebook, name: str, aside: bool) -> None:
     """One rule with its trees."""
     if aside:
         return
-    rule = book[name]
-    prose(f"{title(rule)}: {sentence_of(book, rule)}.")
-    prose("▲ outside this value it may not fire; ▼ below this value it was seen right. + yes, ? grey, − no.")
-    console().print(f"\n{forest_text(book, name)}", markup=False)
+    rule = rulebook[name]
+    show_prose(f"{title(rule)}: {sentence_of(rulebook, rule)}.")
+    show_prose(
+        "▲ outside this value it may not fire; ▼ below this value it was seen right. + yes, ? grey, − no."
+    )
+    console().print(f"\n{forest_text(rulebook, name)}", markup=False)
 
 
-def tell_history(book: Rulebook, name: str, figures: dict, aside: bool) -> None:
+def tell_history(rulebook: Rulebook, name: str, figures: dict, aside: bool) -> None:
     """Every lesson that moved a rule, the oldest first."""
-    events = figures["history"] = told_history(book, name)
+    events = figures["history"] = history_lines(rulebook, name)
     if aside:
         return
-    prose(f"{title(book[name])}:")
+    show_prose(f"{title(rulebook[name])}:")
     for event in events:
-        prose(f"{event}.", "  ")
+        show_prose(f"{event}.", "  ")
 
 
 # --- what it decides -------------------------------------------------------------------------------
-def situation_asked(book: Rulebook, args: Namespace, figures: dict) -> Asked:
+def situation_asked(rulebook: Rulebook, args: Namespace, figures: dict) -> Asked:
     """The situation from the options; the moment it was recorded at goes to the figures."""
     facts: Memory = remembered({})
     if args.recording:
         moment = import_module("gaitwright.cli.recorded_moment")  # only now: it knows MuJoCo
         figures["at_s"], facts = moment.recorded_facts(args.recording, args.at)
-    at = asked(book, said(args.situation or (), book.forest), facts)
-    if args.recording and not any((tree.source or tree.name) in facts for tree in book.forest.trees):
+    at = asked(rulebook, said(args.situation or (), rulebook.forest), facts)
+    if args.recording and not any((tree.source or tree.name) in facts for tree in rulebook.forest.trees):
         raise WrongUse(
             f"{args.recording} tells {', '.join(facts)}, and of these no tree reads one; "
-            f"the trees are {', '.join(book.forest.names)}"
+            f"the trees are {', '.join(rulebook.forest.names)}"
         )
     return at
 
 
 def tell_decision(
-    book: Rulebook, at: Asked, decision: Decision, name: str, figures: dict, aside: bool
+    rulebook: Rulebook, at: Asked, decision: Decision, name: str, figures: dict, aside: bool
 ) -> None:
     """Why, why not, what would have to be different, and which lessons are behind it."""
-    names = others(book, decision, "" if name == decision.rule else name)
-    against, different = reasons_against(book, decision, names), changes(book, at.situation, names)
-    marks = [] if decision.rule is None else list(movers(book, book[decision.rule], at.situation))
-    left_open = whatever(book, at) if at.open else ""
+    names = others(rulebook, decision, "" if name == decision.rule else name)
+    against, different = reasons_against(rulebook, decision, names), changes(rulebook, at.situation, names)
+    marks = [] if decision.rule is None else list(movers(rulebook, rulebook[decision.rule], at.situation))
+    left_open = whatever(rulebook, at) if at.open else ""
     figures |= {
         "situation": dict(at.situation.items()),
         "taken_from": dict(zip(at.situation.trees, at.sources, strict=True)),
         "left_open": left_open,
         "decision": {"rule": decision.rule, "certainty": decision.certainty, "grey": decision.grey},
         "could_fire": decision.conflict,
-        "because": because(book, decision),
+        "because": because(rulebook, decision),
         "why_not": dict(against),
         "counterfactuals": [counterfactual_figures(change) for _, change in different],
         "marks": [dict(zip(MARKS_KEYS, row, strict=True)) for row in marks],
@@ -150,7 +142,7 @@ def tell_decision(
     if aside:
         return
     tell_situation(at)
-    prose(f"{verdict(decision)} {left_open}")
+    show_prose(f"{verdict(decision)} {left_open}")
     section("why", [figures["because"]])
     section("why not another", [sentence for _, sentence in against])
     section(
@@ -189,11 +181,11 @@ def section(head: str, sentences: list[str]) -> None:
     if sentences:
         console().print(f"\n{head}", style="bold", markup=False)
         for sentence in sentences:
-            prose(sentence, "  ")
+            show_prose(sentence, "  ")
 
 
 # --- the picture -----------------------------------------------------------------------------------
-def picture(args: Namespace, book: Rulebook, name: str, decision: Decision | None, figures: dict) -> None:
+def picture(args: Namespace, rulebook: Rulebook, name: str, decision: Decision | None, figures: dict) -> None:
     """Draws the forest, and the trees of the rule that was asked for or fires; says where."""
     if not import_module("gaitwright.cli.trips").has("matplotlib", "the picture", "plot"):
         return
@@ -203,6 +195,6 @@ def picture(args: Namespace, book: Rulebook, name: str, decision: Decision | Non
         from gaitwright.pictures.forest import forest_picture  # noqa: PLC0415 - an extra
 
         rule = name or (decision.rule if decision else "") or ""
-        forest_picture(book, path, rule, decision)
+        forest_picture(rulebook, path, rule, decision)
     figures["picture"] = str(path)
     remark(f"picture: {path}")

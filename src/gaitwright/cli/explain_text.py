@@ -8,23 +8,22 @@ from itertools import groupby
 from gaitwright.knowledge.compiled import compile_book
 from gaitwright.knowledge.consult import Decision, consult
 from gaitwright.knowledge.counterfactual import Counterfactual, counterfactual
-from gaitwright.knowledge.explain import NEAREST, STATUS, why, why_not
+from gaitwright.knowledge.explain import NEAREST, STATUS, last_move, listed, move_text, why, why_not
 from gaitwright.knowledge.forest import Situation
-from gaitwright.knowledge.rules import Event, Rule, Rulebook, outside, status
-from gaitwright.knowledge.trees import ROOT, Tree
+from gaitwright.knowledge.rules import Rule, Rulebook, outside, status
+from gaitwright.knowledge.trees import ROOT, FeatureTree
 
 
-def opening(book: Rulebook, name: str) -> str:
+def opening(rulebook: Rulebook, name: str) -> str:
     """How much a book knows, in a sentence or two."""
-    if not book.rules:
-        return (
-            f"{name} has no rules yet, over {counted(len(book.forest.names), 'tree')}: nobody has taught it."
-        )
-    states = Counter(status(rule) for rule in book.rules)
-    told = ", ".join(f"{number} {state}" for state, number in states.items())
+    over = f"over {counted(len(rulebook.forest.names), 'tree')}"
+    if not rulebook.rules:
+        return f"{name} has no rules yet, {over}: nobody has taught it."
+    states = Counter(status(rule) for rule in rulebook.rules)
+    counts = ", ".join(f"{number} {state}" for state, number in states.items())
     return (
-        f"{name} knows {counted(len(book.rules), 'rule')} over {counted(len(book.forest.names), 'tree')}, "
-        f"from {counted(book.lessons, 'lesson')} ({told}). "
+        f"{name} knows {counted(len(rulebook.rules), 'rule')} {over}, "
+        f"from {counted(rulebook.lessons, 'lesson')} ({counts}). "
         "The first of them that fits a situation fires."
     )
 
@@ -34,22 +33,22 @@ def counted(number: int, what: str) -> str:
     return f"{number} {what}{'' if number == 1 else 's'}"
 
 
-def sentence_of(book: Rulebook, rule: Rule) -> str:
+def sentence_of(rulebook: Rulebook, rule: Rule) -> str:
     """When a rule fires, and where nobody knows."""
     if rule.proposed:
         return "is only proposed by analogy: it fires once it is confirmed or seen right"
     if not rule.positives:
         return "does not fire yet: nobody has seen it right"
-    trees = list(zip(book.forest.trees, rule.marks, strict=True))
+    trees = list(zip(rulebook.forest.trees, rule.marks, strict=True))
     met = [condition(tree, marks.upper) for tree, marks in trees if marks.upper != ROOT]
     grey = [tree.name for tree, marks in trees if marks.upper != marks.lower]
-    told = f"fires when {listed(met)}" if met else "fires wherever none before it does"
+    sentence = f"fires when {listed(met)}" if met else "fires wherever none before it does"
     if not grey:
-        return f"{told}, and that is sure"
-    return f"{told}; grey in {len(grey)} of {len(trees)} trees"
+        return f"{sentence}, and that is sure"
+    return f"{sentence}; grey in {len(grey)} of {len(trees)} trees"
 
 
-def condition(tree: Tree, value: str) -> str:
+def condition(tree: FeatureTree, value: str) -> str:
     """A tree's value as a person says it; where one stands for a few leaves, with these."""
     below = tree.leaves_below(value)
     wider = f" ({', '.join(below)})" if 1 < len(below) <= 4 and value not in (run_of(below), *below) else ""
@@ -61,11 +60,6 @@ def run_of(leaves: tuple[str, ...]) -> str:
     return " or ".join(leaves)
 
 
-def listed(parts: list[str]) -> str:
-    """A, b and c."""
-    return " and ".join([*([", ".join(parts[:-1])] if parts[:-1] else []), *parts[-1:]])
-
-
 # --- a decision ------------------------------------------------------------------------------------
 def verdict(decision: Decision) -> str:
     """What fires, and how sure that is."""
@@ -75,36 +69,36 @@ def verdict(decision: Decision) -> str:
     return f"{decision.rule} fires: {how[decision.certainty]}."
 
 
-def because(book: Rulebook, decision: Decision) -> str:
+def because(rulebook: Rulebook, decision: Decision) -> str:
     """Why the rule fires, without a word about the others."""
     if decision.rule is None:
         return "of each rule a condition is not met."
-    alone = replace(book, rules=(book[decision.rule],))
+    alone = replace(rulebook, rules=(rulebook[decision.rule],))
     return why(alone, consult(alone, decision.situation))
 
 
-def others(book: Rulebook, decision: Decision, name: str) -> list[str]:
+def others(rulebook: Rulebook, decision: Decision, name: str) -> list[str]:
     """The rules of which it is told why they did not fire: the named one, else the nearest."""
     if name:
         return [name]
     away = {
-        rule.name: len(outside(book.forest, rule, decision.situation))
-        for rule in book.rules
+        rule.name: len(outside(rulebook.forest, rule, decision.situation))
+        for rule in rulebook.rules
         if rule.may_fire and rule.name != decision.rule
     }
     return sorted(away, key=lambda rule: away[rule])[:NEAREST]
 
 
-def reasons_against(book: Rulebook, decision: Decision, names: list[str]) -> list[tuple[str, str]]:
+def reasons_against(rulebook: Rulebook, decision: Decision, names: list[str]) -> list[tuple[str, str]]:
     """Each rule with what kept it from firing."""
-    return [(name, why_not(book, name, decision.situation)) for name in names]
+    return [(name, why_not(rulebook, name, decision.situation)) for name in names]
 
 
-def changes(book: Rulebook, situation: Situation, names: list[str]) -> list[tuple[str, Counterfactual]]:
+def changes(rulebook: Rulebook, situation: Situation, names: list[str]) -> list[tuple[str, Counterfactual]]:
     """What would have to be different for anything else to be decided, then for each rule; all were tried."""
-    table = compile_book(book)
-    found = [("", counterfactual(book, situation, compiled=table))]
-    found += [(name, counterfactual(book, situation, name, compiled=table)) for name in names]
+    table = compile_book(rulebook)
+    found = [("", counterfactual(rulebook, situation, compiled=table))]
+    found += [(name, counterfactual(rulebook, situation, name, compiled=table)) for name in names]
     nearest = found[0][1].decision
     return [
         (name, change)
@@ -113,9 +107,9 @@ def changes(book: Rulebook, situation: Situation, names: list[str]) -> list[tupl
     ]
 
 
-def movers(book: Rulebook, rule: Rule, situation: Situation | None) -> Iterator[tuple[str, ...]]:
+def movers(rulebook: Rulebook, rule: Rule, situation: Situation | None) -> Iterator[tuple[str, ...]]:
     """For each tree the value, the marks of a rule, and the lessons that put them there."""
-    for tree, marks in zip(book.forest.trees, rule.marks, strict=True):
+    for tree, marks in zip(rulebook.forest.trees, rule.marks, strict=True):
         here = situation[tree.name] if situation else ""
         if marks.upper == ROOT and marks.lower == ROOT:
             continue
@@ -123,33 +117,26 @@ def movers(book: Rulebook, rule: Rule, situation: Situation | None) -> Iterator[
             tree.name,
             here or "unknown",
             marks.upper,
-            mover(book, rule.name, tree.name, "upper"),
+            mover(rulebook, rule.name, tree.name, "upper"),
             marks.lower or "",
-            mover(book, rule.name, tree.name, "lower"),
+            mover(rulebook, rule.name, tree.name, "lower"),
         )
 
 
-def mover(book: Rulebook, rule: str, tree: str, mark: str) -> str:
+def mover(rulebook: Rulebook, rule: str, tree: str, mark: str) -> str:
     """The lesson that put a mark where it is; empty where it never moved."""
-    event = last_event(book, rule, tree, mark)
+    event = last_move(rulebook, rule, tree, mark)
     return "" if event is None else event.instance or "by analogy"
 
 
-def last_event(book: Rulebook, rule: str, tree: str, mark: str) -> Event | None:
-    for event in reversed(book.events):
-        if (event.rule, event.tree, event.mark) == (rule, tree, mark):
-            return event
-    return None
-
-
-def told_history(book: Rulebook, name: str) -> list[str]:
+def history_lines(rulebook: Rulebook, name: str) -> list[str]:
     """A line for each lesson that moved something of a rule, the oldest first."""
     lines = []
-    events = [event for event in book.events if event.rule == name]
+    events = [event for event in rulebook.events if event.rule == name]
     for instance, group in groupby(events, key=lambda event: event.instance or "by analogy"):
-        told = list(group)
-        first = [event for event in told if event.mark == "lower" and not event.before]
-        parts = [_moved(event) for event in told if event not in first]
+        moves = list(group)
+        first = [event for event in moves if event.mark == "lower" and not event.before]
+        parts = [move_text(event) for event in moves if event not in first]
         if first:
             seen = listed([f"{event.tree} {event.after}" for event in first])
             parts.append(f"its lower marks were set where it was right: {seen}")
@@ -157,15 +144,7 @@ def told_history(book: Rulebook, name: str) -> list[str]:
     return lines
 
 
-def _moved(event: Event) -> str:
-    """One event without the lesson's name."""
-    if event.mark not in ("upper", "lower"):
-        return event.why
-    before = event.before or "nowhere"
-    return f"the {event.mark} mark in {event.tree} went from {before} to {event.after}: {event.why}"
-
-
-def facts_of(book: Rulebook, rule: Rule) -> dict:
+def facts_of(rulebook: Rulebook, rule: Rule) -> dict:
     """A rule as figures."""
     return {
         "name": rule.name,
@@ -173,7 +152,7 @@ def facts_of(book: Rulebook, rule: Rule) -> dict:
         "right": len(rule.positives),
         "wrong": len(rule.negatives),
         "quiet": rule.quiet,
-        "sentence": sentence_of(book, rule),
+        "sentence": sentence_of(rulebook, rule),
         "marks": {marks.tree: {"upper": marks.upper, "lower": marks.lower} for marks in rule.marks},
     }
 

@@ -74,8 +74,8 @@ class Checks:
     def add(self, lap: Lap) -> None:
         """Takes a lap."""
         self.recursion.add(lap)
-        self.closure.add(lap.sensed, lap.torques)
-        felt = felt_limits(self.robot, lap.torques)
+        self.closure.add(lap.sensed, lap.command)
+        felt = felt_limits(self.robot, lap.command)
         if felt and (self.dearest is None or felt[0].price > self.dearest.price):
             self.dearest, self.felt_at = felt[0], lap.sensed.time
 

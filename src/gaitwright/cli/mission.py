@@ -3,13 +3,13 @@
 from argparse import Namespace
 
 from gaitwright.cli import trips
-from gaitwright.cli.books import rulebook_of
+from gaitwright.cli.book_files import rulebook_of
 from gaitwright.errors import WrongUse
-from gaitwright.locomotion import Chooser
 from gaitwright.model.robot import Robot
 from gaitwright.signals import Mission
-from gaitwright.skills.chooser import PlainChooser
+from gaitwright.skills.chooser import DefaultChooser
 from gaitwright.skills.rule_chooser import RuleChooser
+from gaitwright.stages import Chooser
 
 
 def run(args: Namespace) -> int:
@@ -23,7 +23,7 @@ def run(args: Namespace) -> int:
         trips.check_inside("way-point", point, scene)
     trips.check_inside("goal", points[-1], scene)
     if args.speed is not None:
-        PlainChooser(robot).gait_for(args.speed)  # refuses a speed beyond the robot's reach
+        DefaultChooser(robot).gait_for(args.speed)  # refuses a speed beyond the robot's reach
     chooser = chooser_of(robot, args)
     setting = trips.set_up(robot, scene, chooser, args.distribution)
     return trips.run(setting, Mission(points, args.speed, args.driver), args)
@@ -31,4 +31,4 @@ def run(args: Namespace) -> int:
 
 def chooser_of(robot: Robot, args: Namespace) -> Chooser:
     """Who chooses the skills: the rules of a skillbook where the driver is hybrid, else the plain ones."""
-    return RuleChooser(robot, rulebook_of(args.skillbook)) if args.skillbook else PlainChooser(robot)
+    return RuleChooser(robot, rulebook_of(args.skillbook)) if args.skillbook else DefaultChooser(robot)

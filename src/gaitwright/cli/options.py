@@ -10,7 +10,9 @@ import re
 from typing import NamedTuple, NoReturn
 
 from gaitwright.cli.arg_types import (
+    BOOK_TASKS,
     DRIVERS,
+    book_task,
     count,
     distribution,
     driver,
@@ -113,6 +115,19 @@ COMMANDS = {
             "gaitwright explain garden.json",
             "gaitwright explain garden.json --situation ground=gravel speed=0.8 --not trot",
             "gaitwright explain garden.json --rule trot --plot     # its trees as a picture",
+        ),
+    ),
+    "books": Command(
+        "skillbooks: two joined to one; one as text, and back",
+        "merge: teaches OURS what THEIRS was taught since they went apart, into a new book; what the two "
+        "teach differently is told in a sentence each, and there ours stays. export: a skillbook as text, "
+        "one thing a line, the same text for the same book, for reading, diff and version control. import: "
+        "a skillbook from such a text, or one that begins with a rulebook as JSON. No file is ever written "
+        "over.",
+        (
+            "gaitwright books merge mine.skills yours.skills --out both.skills",
+            "gaitwright books export mine.skills --out mine.txt     # without --out: to the standard output",
+            "gaitwright books import mine.txt --out again.skills",
         ),
     ),
     "bench": Command(
@@ -355,6 +370,8 @@ def add_teach(parser: argparse.ArgumentParser) -> None:
     robot = "a name that `gaitwright robots` lists, or an MJCF or URDF file (go2)"
     parser.add_argument("--robot", default="go2", metavar="NAME|FILE", help=robot)
     parser.add_argument("--out", required=True, metavar="BOOK", help="a new skillbook, e.g. go2.skills")
+    start = "go on from this skillbook, also an older one; it stays as it is (begin with no rules)"
+    parser.add_argument("--from", dest="start", metavar="BOOK", help=start)
     trips = "trips that the rules make with the teacher watching (60)"
     parser.add_argument("--trips", type=count, default=60, metavar="N", help=trips)
     parser.add_argument("--seed", type=seed, default=0, metavar="N", help="draws the trips (0)")
@@ -373,6 +390,15 @@ def add_explain(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--at", type=finite, metavar="T", help="at this moment of it, in seconds (its end)")
     parser.add_argument("--plot", action="store_true", help="draw the trees, see --out")
     parser.add_argument("--out", metavar="FILE", help="where to draw (runs/explain-BOOK.png)")
+
+
+def add_books(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("task", type=book_task, metavar="TASK", help=listed(BOOK_TASKS))
+    parser.add_argument("files", nargs="+", metavar="FILE", help="the books, or the text to import")
+    out = "the new book, or where the text goes (export: the standard output)"
+    parser.add_argument("--out", metavar="FILE|-", help=out)
+    base = "merge: the book that both come from (found without being named, checked where it is)"
+    parser.add_argument("--base", metavar="BOOK", help=base)
 
 
 def add_bench(parser: argparse.ArgumentParser) -> None:
@@ -399,6 +425,7 @@ ADD = {
     "skills": add_skills,
     "teach": add_teach,
     "explain": add_explain,
+    "books": add_books,
     "bench": add_bench,
     "reproduce": add_reproduce,
     "doctor": add_nothing,

@@ -5,7 +5,10 @@ import numpy as np
 from gaitwright.errors import WrongUse
 from gaitwright.knowledge.memory import Memory, remembered
 from gaitwright.record.metrics import attitude
-from gaitwright.record.recording import load
+from gaitwright.record.moment import call_at, route_at, sensed_at
+from gaitwright.record.recording import Recording, load
+from gaitwright.skills.library import LIBRARY, OTHER_NAMES
+from gaitwright.skills.situation import measured, named
 
 
 def recorded_facts(path: str, at: float | None) -> tuple[float, Memory]:
@@ -18,18 +21,33 @@ def recorded_facts(path: str, at: float | None) -> tuple[float, Memory]:
     if at is not None and not time[0] <= at <= time[-1]:
         raise WrongUse(f"--at {at:g}: the recording goes from {time[0]:g} to {time[-1]:g} s")
     tick = len(time) - 1 if at is None else int(np.abs(time - at).argmin())
-    roll, pitch = (float(angle[tick]) for angle in attitude(recording["orientation_wb"]))
-    forward, left, turn = recording.moved()[tick].tolist()
+    now = slice(tick, tick + 1)
+    roll, pitch = (float(angle[0]) for angle in attitude(recording.channel("orientation_wb")[now]))
+    forward, left, turn = recording.motion()[now][0].tolist()
+    call = call_at(recording, tick)
     facts = {
-        "skill": recording.skills[int(recording["skill"][tick])],
-        "driver": recording.drivers[int(recording["driver"][tick])],
+        "skill": call.skill,
+        "driver": call.driver,
         "speed": forward,
         "lateral speed": left,
         "turn rate": turn,
-        "wished speed": float(recording["command"][tick, 0]),
-        "wished turn rate": float(recording["command"][tick, 2]),
+        "wished speed": call.velocity[0],
+        "wished turn rate": call.turn,
         "roll": roll,
         "pitch": pitch,
-        "feet down": float(recording["stance"][tick].sum()),
+        "feet down": float(recording.at("stance", tick).sum()),
     }
-    return float(time[tick]), remembered(facts)
+    return float(time[tick]), remembered(situation_at(recording, tick) | facts)
+
+
+def situation_at(recording: Recording, tick: int) -> dict[str, str]:
+    """The leaf of each tree of our own situation space; nothing where an older recording does not tell."""
+    route = route_at(recording, tick)
+    if route is None:
+        return {}
+    before = call_at(recording, max(0, tick - 1))  # what it had been doing when it chose
+    known = before.skill in LIBRARY or before.skill in OTHER_NAMES
+    sensed = sensed_at(recording, tick)
+    call = before if known else None
+    leaves = named(measured(recording.robot, route, sensed, call), call)
+    return {tree: leaf for tree, leaf in leaves.items() if leaf is not None}

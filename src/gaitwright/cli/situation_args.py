@@ -9,10 +9,10 @@ from gaitwright.errors import WrongUse, unknown
 from gaitwright.knowledge.compiled import compile_book
 from gaitwright.knowledge.consult import consult
 from gaitwright.knowledge.counterfactual import counterfactual
-from gaitwright.knowledge.forest import Forest, Situation, replace_value
+from gaitwright.knowledge.forest import Forest, Situation, leaf_in, replace_value
 from gaitwright.knowledge.memory import Fact
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.knowledge.trees import Tree
+from gaitwright.knowledge.trees import FeatureTree
 
 SAID, RECORDED = "said", "recorded"
 MOST = 64
@@ -52,67 +52,67 @@ def said(words: Sequence[str], forest: Forest) -> dict[str, str]:
     return values
 
 
-def asked(book: Rulebook, values: Mapping[str, str], facts: Mapping[str, Fact]) -> Asked:
+def asked(rulebook: Rulebook, values: Mapping[str, str], facts: Mapping[str, Fact]) -> Asked:
     """A leaf for every tree: what was said comes first, then the facts, then the lessons, the last first.
 
     Raises `WrongUse` for a value that does not exist, and where no lesson has one for a tree left open.
     """
-    lessons = last_lessons(book)
-    found = [_leaf(tree, values.get(tree.name), facts, lessons) for tree in book.forest.trees]
-    pairs = zip(book.forest.trees, found, strict=True)
+    lessons = last_lessons(rulebook)
+    found = [_leaf(tree, values.get(tree.name), facts, lessons) for tree in rulebook.forest.trees]
+    pairs = zip(rulebook.forest.trees, found, strict=True)
     missing = [f"{tree.name} ({', '.join(tree.leaves)})" for tree, leaf in pairs if leaf is None]
     if missing:
         raise WrongUse(f"no lesson has a value of {'; '.join(missing)}: add it to --situation")
     leaves, sources = zip(*(leaf for leaf in found if leaf), strict=True)
     partly = tuple(
-        (tree, value) for tree, value in values.items() if _said_leaf(book.forest[tree], value) is None
+        (tree, value) for tree, value in values.items() if _said_leaf(rulebook.forest[tree], value) is None
     )
-    return Asked(Situation(book.forest.names, leaves), sources, partly)
+    return Asked(Situation(rulebook.forest.names, leaves), sources, partly)
 
 
-def last_lessons(book: Rulebook) -> list[tuple[str, Situation]]:
+def last_lessons(rulebook: Rulebook) -> list[tuple[str, Situation]]:
     """The situations of the lessons: those that moved something, the last first, then the others."""
     taught = {
         instance.id: instance.situation
-        for rule in book.rules
+        for rule in rulebook.rules
         for instance in (*rule.positives, *rule.negatives)
         if instance.seen
     }
-    taught |= {wish.instance: wish.situation for wish in book.preferences}
-    moved = [event.instance for event in reversed(book.events) if event.instance in taught]
+    taught |= {wish.instance: wish.situation for wish in rulebook.preferences}
+    moved = [event.instance for event in reversed(rulebook.events) if event.instance in taught]
     return [(name, taught[name]) for name in dict.fromkeys([*moved, *reversed(taught)])]
 
 
-def whatever(book: Rulebook, at: Asked) -> str:
+def whatever(rulebook: Rulebook, at: Asked) -> str:
     """Whether the trees left open make a difference, in a sentence; tried with all of their values."""
     names = [tree for tree in at.situation.trees if tree in at.open]
     trees = names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
-    other = _decided_otherwise(book, at)
+    other = _decided_otherwise(rulebook, at)
     return f"What was left open matters: {other}." if other else f"That is so whatever {trees} may be."
 
 
-def _decided_otherwise(book: Rulebook, at: Asked) -> str:
+def _decided_otherwise(rulebook: Rulebook, at: Asked) -> str:
     """What would have to be different in the open trees for another decision; empty where nothing can."""
     within = dict(at.partly)
     keep = [tree for tree in at.situation.trees if tree not in at.open or tree in within]
-    now, table = consult(book, at.situation).rule, compile_book(book)
-    choices = [book.forest[tree].leaves_below(value) for tree, value in within.items()]
+    now, table = consult(rulebook, at.situation).rule, compile_book(rulebook)
+    choices = [rulebook.forest[tree].leaves_below(value) for tree, value in within.items()]
     for leaves in islice(product(*choices), MOST):
         situation = at.situation
         for tree, leaf in zip(within, leaves, strict=True):
-            situation = replace_value(book.forest, situation, tree, leaf)
-        rule = consult(book, situation).rule
+            situation = replace_value(rulebook.forest, situation, tree, leaf)
+        rule = consult(rulebook, situation).rule
         if rule != now:
-            told = " and ".join(f"{tree} is {leaf}" for tree, leaf in zip(within, leaves, strict=True))
-            return f"{rule or 'no rule'} would fire if {told}"
-        other = counterfactual(book, situation, keep=keep, compiled=table)
+            condition = " and ".join(f"{tree} is {leaf}" for tree, leaf in zip(within, leaves, strict=True))
+            return f"{rule or 'no rule'} would fire if {condition}"
+        other = counterfactual(rulebook, situation, keep=keep, compiled=table)
         if other.decision is not None:
             return other.sentence
     return ""
 
 
 def _leaf(
-    tree: Tree, value: str | None, facts: Mapping[str, Fact], lessons: Sequence[tuple[str, Situation]]
+    tree: FeatureTree, value: str | None, facts: Mapping[str, Fact], lessons: Sequence[tuple[str, Situation]]
 ) -> tuple[str, str] | None:
     """A tree's leaf and where it comes from; `None` where nothing tells."""
     if value is not None:
@@ -125,15 +125,13 @@ def _leaf(
             tree.leaves_below(value)[0],
             "as the first",
         )
-    fact = facts.get(tree.source or tree.name)
-    if fact is not None and tree.bounds and not isinstance(fact, str):
-        return tree.leaf_of(fact), RECORDED
-    if isinstance(fact, str) and tree.is_leaf(fact):
-        return fact, RECORDED
+    recorded = leaf_in(tree, facts)
+    if recorded is not None:
+        return recorded, RECORDED
     return _taught(tree, tree.leaves, lessons)
 
 
-def _said_leaf(tree: Tree, value: str) -> str | None:
+def _said_leaf(tree: FeatureTree, value: str) -> str | None:
     """The leaf of that name, or the interval of that number, with or without its unit."""
     if tree.is_leaf(value):
         return value
@@ -145,7 +143,7 @@ def _said_leaf(tree: Tree, value: str) -> str | None:
 
 
 def _taught(
-    tree: Tree, leaves: Sequence[str], lessons: Sequence[tuple[str, Situation]]
+    tree: FeatureTree, leaves: Sequence[str], lessons: Sequence[tuple[str, Situation]]
 ) -> tuple[str, str] | None:
     """The leaf among these that the last lesson had which had one."""
     for name, situation in lessons:

@@ -1,8 +1,7 @@
 """`gaitwright skill`: one skill for a time, with a push where asked for."""
 
-import math
 from argparse import Namespace
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from gaitwright.assess.motor_requirements import HOPELESS, shortage, too_wide
 from gaitwright.cli import trips
@@ -10,22 +9,17 @@ from gaitwright.cli.console import remark, working
 from gaitwright.errors import WrongUse
 from gaitwright.gait.climb.climber import Climber, climb_call
 from gaitwright.gait.climb.plan import climb
-from gaitwright.gait.coordinator import Coordinator
 from gaitwright.gait.leg_cycles.files import load_cycle
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle
 from gaitwright.ground.scene import Scene
-from gaitwright.locomotion import Brain, Lap
 from gaitwright.model.robot import Robot
-from gaitwright.numerics.geometry import heading, rotation
-from gaitwright.plant.registry import SimulatedPlant
+from gaitwright.session import DT, Push
 from gaitwright.signals import Mission, SkillCall
-from gaitwright.skills.chooser import Fixed, fixed_skill
+from gaitwright.skills.chooser import HeldSkill, fixed_skill
 from gaitwright.skills.library import fastest, find_skill
 
 PLANNED = ("climb", "descend")
 """Skills that are planned beforehand on the plant without mechanics."""
-PUSH_LASTS = 0.1
-"""[s]"""
 
 
 def run(args: Namespace) -> int:
@@ -39,18 +33,13 @@ def run(args: Namespace) -> int:
         return climb_by_plan(robot, scene, args)
     chooser = fixed_skill(robot, args.skill, args.speed, args.lateral, args.turn, args.driver)
     check_turn(robot, chooser.skill_call)
-    check_motors(robot, chooser.skill_call)
-    push = Push.of(robot, *args.push, at=args.seconds / 2) if args.push else None
+    cycle = load_cycle(args.cycle) if args.cycle else None
+    check_motors(robot, chooser.skill_call, cycle)
+    push = Push(*args.push, at=args.seconds / 2) if args.push else None
     setting = trips.set_up(robot, scene, chooser, args.distribution)
-    if args.cycle:
-        setting = replace(setting, brain=with_cycle(setting.brain, skill.name, load_cycle(args.cycle)))
-    return trips.run(setting, Mission((), args.speed, args.driver), args, on_lap=push)
-
-
-def with_cycle(brain: Brain, skill: str, cycle: LegCycle) -> Brain:
-    """A brain whose feet follow a leg cycle in a skill."""
-    assert isinstance(brain.coordinator, Coordinator)
-    return replace(brain, coordinator=replace(brain.coordinator, cycles={skill: cycle}, known={}))
+    if cycle:
+        setting = replace(setting, brain=setting.brain.with_cycle(skill.name, cycle))
+    return trips.run(setting, Mission((), args.speed, args.driver), args, push)
 
 
 def climb_by_plan(robot: Robot, scene: Scene, args: Namespace) -> int:
@@ -59,19 +48,23 @@ def climb_by_plan(robot: Robot, scene: Scene, args: Namespace) -> int:
         ascent = climb(robot, scene)
     if ascent.faults:
         raise WrongUse(f"{robot.name} cannot climb {scene.name}: {ascent.faults[0]}")
-    chooser = Fixed(climb_call(ascent, args.driver))
+    chooser = HeldSkill(climb_call(ascent, args.driver))
     setting = trips.set_up(robot, scene, chooser, args.distribution)
-    brain = replace(setting.brain, chooser=chooser, coordinator=Climber(ascent, trips.DT))
+    brain = replace(setting.brain, chooser=chooser, coordinator=Climber(ascent, DT))
     args.seconds = len(ascent.steps) * ascent.seconds
     return trips.run(replace(setting, brain=brain, varied=False), Mission((), driver=args.driver), args)
 
 
-def check_motors(robot: Robot, call: SkillCall) -> None:
-    """`WrongUse` where body or motors are far from fit for a skill; a remark where nothing is to spare."""
-    told = too_wide(robot, call.gait) or shortage(robot, call.gait, call.velocity, call.turn, HOPELESS)
+def check_motors(robot: Robot, call: SkillCall, cycle: LegCycle | None = None) -> None:
+    """`WrongUse` where body or motors are far from fit for a skill; a remark where nothing is to spare.
+
+    `cycle`: the leg cycle that the feet follow, where it is not the skill's own.
+    """
+    motion = robot, call.gait, call.velocity, call.turn
+    told = too_wide(robot, call.gait) or shortage(*motion, HOPELESS, cycle)
     if told:
         raise WrongUse(told)
-    told = shortage(robot, call.gait, call.velocity, call.turn)
+    told = shortage(*motion, cycle=cycle)
     if told:
         remark(f"{told}: it may not keep up")
 
@@ -85,37 +78,3 @@ def check_turn(robot: Robot, call: SkillCall) -> None:
             f"{call.skill} at a yaw rate of {call.turn:g} rad/s is beyond the reach of {robot.name}, whose "
             f"feet are up to {reach:.2f} m from its middle: at most {most:.2f} rad/s"
         )
-
-
-@dataclass
-class Push:
-    """A force on the body for a moment."""
-
-    force: float
-    """[N]"""
-    direction: float
-    """From straight ahead, counter-clockwise [rad]."""
-    begins: float
-    ends: float
-    """[s]"""
-    pushing: bool = False
-
-    @classmethod
-    def of(cls, robot: Robot, impulse: float, direction: float, at: float) -> "Push":
-        """From an impulse per mass [N·s/kg] and a direction in degrees."""
-        if impulse < 0.0:
-            raise WrongUse(
-                f"the impulse of a push is not negative, as {impulse:g} is; turn its direction instead"
-            )
-        force = impulse * robot.total_mass / PUSH_LASTS
-        return cls(force, math.radians(direction), at, at + PUSH_LASTS)
-
-    def __call__(self, plant: SimulatedPlant, lap: Lap) -> None:
-        """Begins and ends the push when its time has come."""
-        due = self.begins - 1e-9 <= lap.sensed.time < self.ends - 1e-9
-        if due and not self.pushing:
-            towards = heading(rotation(lap.sensed.orientation_wb)) + self.direction
-            plant.push((self.force * math.cos(towards), self.force * math.sin(towards), 0.0))
-        elif self.pushing and not due:
-            plant.push((0.0, 0.0, 0.0))
-        self.pushing = due

@@ -2,24 +2,23 @@
 
 import json
 from argparse import Namespace
-from dataclasses import asdict
-from pathlib import Path
+from dataclasses import asdict, replace
 from time import perf_counter
 
+from gaitwright.cli.book_files import new_file, skillbook_of
 from gaitwright.cli.console import remark, show_pairs, working
 from gaitwright.cli.output import check_json, write_json
 from gaitwright.cli.trips import find_robot
-from gaitwright.errors import WrongUse
 from gaitwright.knowledge.modifier import Learned
-from gaitwright.knowledge.rules import Rulebook, status
+from gaitwright.knowledge.rules import status
 from gaitwright.learning.analogies import proposals
 from gaitwright.learning.exam import held_out, right_share
-from gaitwright.learning.keeping import keep
-from gaitwright.learning.school import Schooled, attend
+from gaitwright.learning.school import Schooled, attend, catch_up, keep
 from gaitwright.learning.teacher import ScriptedTeacher
 from gaitwright.model.robot import Robot
 from gaitwright.skillbook.book import Skillbook
 from gaitwright.skillbook.writer import Ledger, open_for_learning
+from gaitwright.skills.book_trees import up_to_date
 from gaitwright.skills.situation import FOREST
 
 EXAM = 200
@@ -30,12 +29,8 @@ EVERY = 10.0
 
 def run(args: Namespace) -> int:
     check_json(args.json)
-    robot, path = find_robot(args.robot), Path(args.out)
-    if path.exists():
-        raise WrongUse(f"{path} exists: name a new skillbook, or remove that one")
-    if not path.parent.is_dir():
-        raise WrongUse(f"there is no folder {path.parent} for {path.name}")
-    Skillbook.new(Rulebook(FOREST), robot=robot.name, name=path.stem, seed=args.seed).save(path)
+    robot, path = find_robot(args.robot), new_file(args.out, "skillbook")
+    begun(robot, path.stem, args).save(path)
     began = perf_counter()
     try:
         with open_for_learning(path) as ledger:
@@ -46,10 +41,19 @@ def run(args: Namespace) -> int:
         return 130
     with working("the exam", worth_a_line=False):
         right = right_share(
-            schooled.book, ScriptedTeacher(), held_out(robot, ScriptedTeacher(), args.seed, EXAM)
+            schooled.rulebook, ScriptedTeacher(), held_out(robot, ScriptedTeacher(), args.seed, EXAM)
         )
     tell(schooled, offered, right, perf_counter() - began, args)
     return 0
+
+
+def begun(robot: Robot, name: str, args: Namespace) -> Skillbook:
+    """The book that the school begins with: an empty one, or what an earlier school left."""
+    if args.start is None:
+        return Skillbook.new(FOREST, robot.name, name, args.seed)
+    old = skillbook_of(args.start)
+    up_to_date(old.rulebook)  # refuses a book that is about something else before there is a new one
+    return replace(old.forked(name), robot=robot.name, seed=args.seed)
 
 
 def taught(robot: Robot, ledger: Ledger, args: Namespace) -> Schooled:
@@ -70,6 +74,7 @@ def taught(robot: Robot, ledger: Ledger, args: Namespace) -> Schooled:
         trips_watched=args.trips,
         progress=progress,
         keep=lambda studied: keep(ledger, studied),
+        start=catch_up(ledger),
     )
 
 
@@ -77,13 +82,13 @@ def offer_analogies(ledger: Ledger) -> tuple[Learned, ...]:
     """Rules by analogy, put away as proposals: they fire once they are confirmed or seen right."""
     made = proposals(ledger.book.rulebook)
     for learned in made:
-        ledger.edit(learned.book, learned.events[0].why)
+        ledger.edit(learned.rulebook, learned.events[0].why)
     return made
 
 
 def tell(schooled: Schooled, offered: list[str], right: float, seconds: float, args: Namespace) -> None:
     """What came of it; `offered`: the rules proposed by analogy, in sentences."""
-    report, rules = schooled.report, schooled.book.rules
+    report, rules = schooled.report, schooled.rulebook.rules
     states = ", ".join(f"{rule.name} {status(rule)}" for rule in rules)
     numbers = {
         "book": args.out,

@@ -3,7 +3,6 @@
 import json
 import math
 from argparse import Namespace
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
@@ -15,19 +14,17 @@ from gaitwright.cli.output import check_folder, check_json, write_json, write_wh
 from gaitwright.control.numerical import Method
 from gaitwright.description.load import load_robot_and_notes
 from gaitwright.errors import WrongUse
-from gaitwright.ground.scene import Scene, load_scene
-from gaitwright.locomotion import Brain, Chooser, Lap
+from gaitwright.ground.scene import Scene
+from gaitwright.locomotion import Brain, Lap
 from gaitwright.model.robot import Robot
+from gaitwright.navigation.navigator import Navigator
 from gaitwright.numerics.compiled import is_warm
-from gaitwright.plant.registry import SimulatedPlant, make_plant
-from gaitwright.record.recording import INTERRUPTED, Recording, Report, walk
+from gaitwright.perception.known_ground import map_of
+from gaitwright.plant.registry import make_plant
+from gaitwright.record.recording import INTERRUPTED, Recording, Report
+from gaitwright.session import DT, Push, Session, record, scene_for, walk
 from gaitwright.signals import Mission
-from gaitwright.skills.library import REFERENCE_HEIGHT
-
-DT = 0.002
-"""Control period [s]."""
-DOG_SIZED = 0.6
-"""Robots up to this height [m] walk in scenes as they are."""
+from gaitwright.stages import Chooser, Plant
 
 WITHOUT_MECHANICS = ("kinematic", "programmed")
 """Drivers that say where the robot goes, beside their torques: what plant `kinematic` follows."""
@@ -65,7 +62,7 @@ def find_robot(asked: str) -> Robot:
 
 def find_scene(asked: str, seed: int, robot: Robot, start: list[float] | None = None) -> Scene:
     """The scene of that name or file, in the robot's size, with `start` (x, y, yaw) where given."""
-    scene = load_scene(asked, seed, scene_scale(robot))
+    scene = scene_for(robot, asked, seed)
     if start is None:
         return scene
     x, y, yaw = start
@@ -73,11 +70,6 @@ def find_scene(asked: str, seed: int, robot: Robot, start: list[float] | None = 
     if abs(yaw) > 2 * math.pi:
         raise WrongUse(f"the start's yaw is in radians, from -6.28 to 6.28, not {yaw:g}")
     return replace(scene, start=(x, y, yaw))
-
-
-def scene_scale(robot: Robot) -> float:
-    """What the lengths of a built-in scene are multiplied by for a robot."""
-    return 1.0 if robot.height <= DOG_SIZED else float(round(robot.height / REFERENCE_HEIGHT))
 
 
 def check_inside(what: str, point: tuple[float, float], scene: Scene) -> None:
@@ -94,7 +86,7 @@ def set_up(robot: Robot, scene: Scene, chooser: Chooser, distribution: Method) -
     """The brain of a robot in a scene. Raises `WrongUse` where the start is no place to stand."""
     brain = Brain.of(robot, scene, chooser, DT, distribution)
     x, y, _ = scene.start
-    if brain.navigator.view.blocked((x, y)):
+    if Navigator(robot).view(map_of(scene, robot)).blocked((x, y)):
         raise WrongUse(
             f"the start ({x:g}, {y:g}) is on an obstacle of scene {scene.name}, or too near to one"
         )
@@ -119,7 +111,7 @@ def run(
     setting: Setting,
     mission: Mission,
     args: Namespace,
-    on_lap: Callable[[SimulatedPlant, Lap], None] | None = None,
+    push: Push | None = None,
 ) -> int:
     """Simulates, reports, leaves the files in `args.out`; returns the exit code."""
     check_mechanics(mission.driver, args)
@@ -147,26 +139,18 @@ def run(
             progress(lap)
             if checks:
                 checks.add(lap)
-            if on_lap:
-                on_lap(plant, lap)
 
-        recording = walk(
-            setting.brain,
-            plant,
-            mission,
-            args.seconds,
-            args.seed,
-            setting.varied,
-            scene=setting.scene.name,
-            watch=watch,
-        )
+        session = Session(setting.brain, plant, mission, args.seconds, args.seed, setting.varied)
+        if push:
+            session.push(push)
+        recording = record(session, args.seed, setting.scene.name, watch)
     if not len(recording):
         raise KeyboardInterrupt
     wall = perf_counter() - began
     return finish(setting, recording, args, wall, checks)
 
 
-def warm_up(setting: Setting, plant: SimulatedPlant, mission: Mission) -> None:
+def warm_up(setting: Setting, plant: Plant, mission: Mission) -> None:
     """Three ticks whose result is thrown away: compiles the kernels, or loads them from numba's cache."""
     cold = not is_warm()
     what = "compiling kernels (first run only, up to two minutes)" if cold else "loading compiled kernels"

@@ -1,1 +1,1 @@
-"""MotionTarget + Sensed → Torques (numerical, learned, kinematic and programmed control)."""
+"""MotionTarget + Sensed → MotorCommand (numerical, learned, kinematic and programmed control)."""

@@ -8,7 +8,7 @@ from jaxtyping import Bool
 from gaitwright.model.kinematics import HINGES
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.status import INFEASIBLE, SENTENCES
-from gaitwright.signals import Torques
+from gaitwright.signals import MotorCommand
 
 SENSIBLE = 1e-9
 """Prices below this share of the largest one are those of a limit that is touched by chance."""
@@ -28,23 +28,23 @@ class Felt(NamedTuple):
     sentence: str
 
 
-def felt_limits(robot: Robot, torques: Torques) -> tuple[Felt, ...]:
+def felt_limits(robot: Robot, command: MotorCommand) -> tuple[Felt, ...]:
     """The limits that the torques of a tick rest on, the dearest first."""
-    if torques.prices is None:
+    if command.prices is None:
         return ()
-    prices = np.abs(torques.prices)
+    prices = np.abs(command.prices)
     order = sorted(zip(*np.nonzero(prices > SENSIBLE * (prices.max() + 1e-300)), strict=True))
     felt = [
-        Felt(robot.legs[leg], float(prices[leg, limit]), limit_words(robot, torques, int(leg), int(limit)))
+        Felt(robot.legs[leg], float(prices[leg, limit]), limit_words(robot, command, int(leg), int(limit)))
         for leg, limit in order
     ]
     return tuple(sorted(felt, key=lambda one: -one.price))
 
 
-def limit_words(robot: Robot, torques: Torques, leg: int, limit: int) -> str:
+def limit_words(robot: Robot, command: MotorCommand, leg: int, limit: int) -> str:
     """One limit of one foot, numbered as in `forces`, as a sentence with its number."""
     foot = f"foot {robot.legs[leg]}"
-    force = float(np.linalg.norm(torques.forces_w[leg]))
+    force = float(np.linalg.norm(command.forces_w[leg]))
     if limit < 4:
         return f"{foot} at its friction limit towards {SIDES[limit]}: {force:.1f} N in all"
     if limit == 4:
@@ -59,10 +59,10 @@ def joint_words(robot: Robot, leg: int, joint: int) -> str:
     return f"{HINGES[joint]}, {robot.tau_max[leg, joint]:.3g} N·m"
 
 
-def explain(robot: Robot, torques: Torques) -> str:
+def explain(robot: Robot, command: MotorCommand) -> str:
     """The whole certificate of a tick: status, what is missing of the wanted wrench, and every limit felt."""
-    lines = [f"{torques.status}; {torques.residual:.1%} of the weight is missing of the wanted wrench"]
-    lines += [f"{felt.sentence} (price {felt.price:.3g})" for felt in felt_limits(robot, torques)]
+    lines = [f"{command.status}; {command.residual:.1%} of the weight is missing of the wanted wrench"]
+    lines += [f"{felt.sentence} (price {felt.price:.3g})" for felt in felt_limits(robot, command)]
     return "\n".join(lines)
 
 

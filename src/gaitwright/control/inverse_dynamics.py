@@ -11,7 +11,6 @@ import numpy as np
 from jaxtyping import Float
 
 from gaitwright.control.moments import moment_of, row
-from gaitwright.dynamics.leg import base_at, foot_and_columns, hinge_axes, leg_at, leg_turns
 from gaitwright.dynamics.newton_euler import (
     NO_LOAD,
     bias_motion,
@@ -22,6 +21,7 @@ from gaitwright.dynamics.newton_euler import (
     solve_columns,
     with_accelerations,
 )
+from gaitwright.model.leg import base_at, foot_and_columns, hinge_axes, leg_at, leg_turns
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import (
@@ -39,6 +39,7 @@ from gaitwright.numerics.geometry import (
     vec,
 )
 from gaitwright.numerics.matrices import apply, apply_t, write
+from gaitwright.numerics.packing import Layout
 from gaitwright.signals import MotionTarget, Sensed
 
 # Gains, in units of the robot's own frequency w0 = √(g/h) (control.md, measured on five robots).
@@ -119,31 +120,23 @@ def write_maps(out, push, turn, R, leg, turns, columns, below):
 
 
 class Load(NamedTuple):
-    """What the feet are asked to do, and how their pushes act; arrays for `legs` legs."""
+    """What the feet are asked to do, and how their pushes act."""
 
-    wrench: np.ndarray
-    """`(6,)` force [N] and moment [N·m] about the base origin wanted of the feet, world axes."""
-    free: np.ndarray
-    """`(legs, 3)` joint torques with unloaded feet [N·m]."""
-    arm: np.ndarray
-    """`(legs, 3)` base origin → contact point, world axes [m]."""
-    push: np.ndarray
-    """`(legs, 3, 3)` rows: the joints' Jacobian columns of the contact point, world: τ = free − push @ f."""
-    turn: np.ndarray
-    """`(legs, 3, 3)` rows: the joints' axes, world; a moment m on the foot takes turn @ m off the torques."""
+    wrench: Float[np.ndarray, "6"]
+    """Force [N] and moment [N·m] about the base origin wanted of the feet, world axes."""
+    free: Float[np.ndarray, "legs 3"]
+    """Joint torques with unloaded feet [N·m]."""
+    arm: Float[np.ndarray, "legs 3"]
+    """Base origin → contact point, world axes [m]."""
+    push: Float[np.ndarray, "legs 3 3"]
+    """Rows: the joints' Jacobian columns of the contact point, world: τ = free − push @ f."""
+    turn: Float[np.ndarray, "legs 3 3"]
+    """Rows: the joints' axes, world; a moment m on the foot takes turn @ m off the torques."""
 
 
-@kernel
-def load_of(numbers):
-    """The `Load` packed in one array, as views."""
-    n = (numbers.size - 6) // 24
-    return Load(
-        numbers[:6],
-        numbers[6 : 6 + 3 * n].reshape(n, 3),
-        numbers[6 + 3 * n : 6 + 6 * n].reshape(n, 3),
-        numbers[6 + 6 * n : 6 + 15 * n].reshape(n, 3, 3),
-        numbers[6 + 15 * n :].reshape(n, 3, 3),
-    )
+LOAD = Layout.of(Load)
+load_of = LOAD.views(Load)
+"""The `Load` in a row, as views; for kernels too."""
 
 
 AS_WANTED = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))

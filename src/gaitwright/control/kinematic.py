@@ -1,15 +1,16 @@
-"""MotionTarget + Sensed → Torques by the joints' angles alone: joint coordination without forces (row S1)."""
+"""MotionTarget + Sensed → MotorCommand by joint angles alone: coordination without forces (row S1)."""
 
 from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.control.servo import STIFF, Gains, servo_torques
+from gaitwright.control.servo import STIFF, Gains, posture_of, servo_command
 from gaitwright.model.kinematics import all_feet
 from gaitwright.model.leg_motion import BaseMotion, all_joint_rates, velocity_from_base
 from gaitwright.model.robot import Robot
-from gaitwright.signals import MotionTarget, Sensed, Torques
+from gaitwright.signals import MotionTarget, MotorCommand, Sensed
+from gaitwright.stages import Map, Now
 
 
 @dataclass(frozen=True)
@@ -24,10 +25,12 @@ class KinematicController:
     robot: Robot
     gains: Gains = STIFF
 
-    def torques(self, target: MotionTarget, sensed: Sensed, previous: Torques | None = None) -> Torques:
-        """Joint torques [N·m] for this tick, within the limits."""
+    def command(
+        self, target: MotionTarget, sensed: Sensed, memory: None = None, call: Now = None, ground: Map = None
+    ) -> tuple[MotorCommand, None]:
+        """Joint torques [N·m] for this tick, within the limits; nothing is remembered."""
         qd = wanted_rates(self.robot, target)
-        return servo_torques(self.robot, self.gains, target.q, qd, sensed, target)
+        return servo_command(self.robot, self.gains, target.q, qd, sensed, posture_of(target)), None
 
 
 def wanted_rates(robot: Robot, target: MotionTarget) -> Float[np.ndarray, "legs 3"]:

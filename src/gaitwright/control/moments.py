@@ -4,40 +4,55 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from gaitwright.numerics.compiled import kernel
+from gaitwright.numerics.packing import Layout
 from gaitwright.signals import MotionTarget, Sensed
 
 Moments = Float[np.ndarray, "steps numbers"]
 """One moment a row, the columns in the order of `Moment`."""
 
 
-BODY, LEG = 40, 17
-"""Columns of the body, and of each leg after them."""
-
-
 class Moment(NamedTuple):
     """What a tick reads, field by field as in `Sensed` and `MotionTarget`."""
 
-    position: np.ndarray
-    orientation: np.ndarray
-    velocity: np.ndarray
-    spin_b: np.ndarray
-    normal: np.ndarray
-    want_p: np.ndarray
-    want_v: np.ndarray
-    want_a: np.ndarray
-    want_w: np.ndarray
-    want_wd: np.ndarray
-    want_r: np.ndarray
-    stance: np.ndarray
-    share: np.ndarray
-    q: np.ndarray
-    qd: np.ndarray
-    feet_p: np.ndarray
-    feet_v: np.ndarray
-    feet_a: np.ndarray
+    position: Float[np.ndarray, "3"]
+    orientation: Float[np.ndarray, "4"]
+    velocity: Float[np.ndarray, "3"]
+    spin_b: Float[np.ndarray, "3"]
+    normal: Float[np.ndarray, "3"]
+    want_p: Float[np.ndarray, "3"]
+    want_v: Float[np.ndarray, "3"]
+    want_a: Float[np.ndarray, "3"]
+    want_w: Float[np.ndarray, "3"]
+    want_wd: Float[np.ndarray, "3"]
+    want_r: Float[np.ndarray, "3 3"]
+    stance: Bool[np.ndarray, "legs"]
+    share: Float[np.ndarray, "legs"]
+    q: Float[np.ndarray, "legs 3"]
+    qd: Float[np.ndarray, "legs 3"]
+    feet_p: Float[np.ndarray, "legs 3"]
+    feet_v: Float[np.ndarray, "legs 3"]
+    feet_a: Float[np.ndarray, "legs 3"]
+
+
+LAYOUT = Layout.of(Moment)
+moment_of = LAYOUT.views(Moment)
+"""The `Moment` in a row, as views but for `stance`; for kernels too."""
+stance_begins = LAYOUT.start("stance")
+sensed_fields, target_fields = Sensed.layout.views(), MotionTarget.layout.views()
+
+
+@kernel
+def moment_between(seen, asked):
+    """The `Moment` of a `Sensed` and a `MotionTarget`, given as their rows."""
+    s, t = sensed_fields(seen), target_fields(asked)
+    return Moment(
+        s.position_w, s.orientation_wb, s.velocity_w, s.angular_velocity_b, t.normal_w, t.position_w,
+        t.velocity_w, t.acceleration_w, t.angular_velocity_w, t.angular_acceleration_w, t.rotation_wb,
+        t.stance, t.share, s.q, s.qd, t.feet_w, t.feet_velocity_w, t.feet_acceleration_w,
+    )  # fmt: skip
 
 
 def moments_of(sensed: Sequence[Sensed], targets: Sequence[MotionTarget]) -> Moments:
@@ -52,31 +67,4 @@ def row(s: Sensed, t: MotionTarget) -> Float[np.ndarray, "numbers"]:
         t.velocity_w, t.acceleration_w, t.angular_velocity_w, t.angular_acceleration_w, t.rotation_wb,
         t.stance, t.share, s.q, s.qd, t.feet_w, t.feet_velocity_w, t.feet_acceleration_w,
     )  # fmt: skip
-    return np.concatenate([np.ravel(part) for part in parts])
-
-
-@kernel
-def moment_of(numbers):
-    """The `Moment` in a row, as views; only `stance` is a copy."""
-    n = (numbers.size - BODY) // LEG
-    legs = numbers[BODY:]
-    return Moment(
-        numbers[:3],
-        numbers[3:7],
-        numbers[7:10],
-        numbers[10:13],
-        numbers[13:16],
-        numbers[16:19],
-        numbers[19:22],
-        numbers[22:25],
-        numbers[25:28],
-        numbers[28:31],
-        numbers[31:40].reshape(3, 3),
-        legs[:n] > 0.5,
-        legs[n : 2 * n],
-        legs[2 * n : 5 * n].reshape(n, 3),
-        legs[5 * n : 8 * n].reshape(n, 3),
-        legs[8 * n : 11 * n].reshape(n, 3),
-        legs[11 * n : 14 * n].reshape(n, 3),
-        legs[14 * n :].reshape(n, 3),
-    )
+    return LAYOUT.pack(parts)

@@ -1,16 +1,17 @@
-"""MotionTarget + Sensed → Torques by joint angles played back: motion programmed in (row S1)."""
+"""MotionTarget + Sensed → MotorCommand by joint angles played back: motion programmed in (row S1)."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Bool, Float
 
-from gaitwright.control.servo import STIFF, Gains, servo_torques
+from gaitwright.control.servo import STIFF, Gains, servo_command
 from gaitwright.errors import WrongUse
 from gaitwright.model.kinematics import HINGES
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.compiled import kernel
-from gaitwright.signals import MotionTarget, Sensed, Torques
+from gaitwright.signals import MotionTarget, MotorCommand, Posture, Sensed
+from gaitwright.stages import Map, Now
 
 Table = Float[np.ndarray, "bins legs 3"]
 
@@ -57,11 +58,14 @@ class ProgrammedController:
         if over.max() > 1e-9:
             raise WrongUse(beyond(self.robot, self.table, over))
 
-    def torques(self, target: MotionTarget, sensed: Sensed, previous: Torques | None = None) -> Torques:
-        """Joint torques [N·m] for this tick, within the limits."""
+    def command(
+        self, target: MotionTarget, sensed: Sensed, memory: None = None, call: Now = None, ground: Map = None
+    ) -> tuple[MotorCommand, None]:
+        """Joint torques [N·m] for this tick, within the limits; nothing is remembered."""
         q, qd = played(self.table, target.phase), played(self.rates, target.phase)
         down = self.stance[int(target.phase * len(self.stance)) % len(self.stance)]
-        return servo_torques(self.robot, self.gains, q, qd, sensed, replace(target, q=q, stance=down))
+        posture = Posture(target.position_w, target.rotation_wb, q, down)
+        return servo_command(self.robot, self.gains, q, qd, sensed, posture), None
 
 
 def beyond(robot: Robot, table: Table, over: Table) -> str:

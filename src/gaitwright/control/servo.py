@@ -12,7 +12,7 @@ from jaxtyping import Float
 
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.compiled import kernel
-from gaitwright.signals import MotionTarget, Sensed, Torques
+from gaitwright.signals import MotionTarget, MotorCommand, Posture, Sensed
 
 SERVOED = "solved by joint servo"
 """Status of torques that rest on no force distribution."""
@@ -50,17 +50,22 @@ def servo(tau_max, stiffness, damping, q_wanted, qd_wanted, q, qd):
     return out
 
 
-def servo_torques(
+def posture_of(target: MotionTarget) -> Posture:
+    """The posture that a target asks for."""
+    return Posture(target.position_w, target.rotation_wb, target.q, target.stance)
+
+
+def servo_command(
     robot: Robot,
     gains: Gains,
     q: Float[np.ndarray, "legs 3"],
     qd: Float[np.ndarray, "legs 3"],
     sensed: Sensed,
-    follows: MotionTarget,
-) -> Torques:
+    posture: Posture,
+) -> MotorCommand:
     """What the servos do for joint angles `q` [rad] and rates `qd` [rad/s] asked for.
 
-    No number in, none out: whoever watches stops the motors. `follows` goes along for a plant without
+    No number in, none out: whoever watches stops the motors. `posture` goes along for a plant without
     mechanics.
     """
     weight, height, natural = robot.measures
@@ -68,6 +73,6 @@ def servo_torques(
     damping = gains.damping * weight * height / natural
     nothing = np.zeros((robot.n, 3))
     if not (sensed.is_finite() and np.isfinite(q).all() and np.isfinite(qd).all()):
-        return Torques(np.full((robot.n, 3), np.nan), nothing, 0.0, NO_NUMBER)
+        return MotorCommand(np.full((robot.n, 3), np.nan), nothing, 0.0, NO_NUMBER)
     tau = servo(robot.tau_max, stiffness, damping, q, qd, sensed.q, sensed.qd)
-    return Torques(tau, nothing, 0.0, SERVOED, follows=follows)
+    return MotorCommand(tau, nothing, 0.0, SERVOED, posture=posture)

@@ -6,7 +6,7 @@ acceleration throw the swinging feet off their way: in a gallop by 3 cm, enough 
 """
 
 from gaitwright.control.inverse_dynamics import load_of
-from gaitwright.dynamics.leg import base_at, leg_at, leg_turns
+from gaitwright.model.leg import base_at, leg_at, leg_turns
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import add, cross, rotation, scale, sub, times, times_t, turn_x, turn_y, vec
 from gaitwright.numerics.matrices import apply, inverse, minus, plus, product_t, skew

@@ -15,16 +15,17 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from gaitwright.control.forces import LIMITS
-from gaitwright.control.inverse_dynamics import AS_WANTED, demand
-from gaitwright.control.moments import BODY, LEG, Moments, moment_of
+from gaitwright.control.inverse_dynamics import AS_WANTED, LOAD, demand
+from gaitwright.control.moments import LAYOUT as MOMENT
+from gaitwright.control.moments import Moments, moment_of, stance_begins
 from gaitwright.control.numerical import (
+    LAYOUT,
     PLAIN,
     Method,
     NumericalController,
     distributed,
     distributed_linear,
-    effort_columns,
-    effort_of,
+    result_of,
 )
 from gaitwright.control.thesis_program import LinearSettings
 from gaitwright.errors import WrongUse
@@ -50,7 +51,7 @@ class Job:
 
 @dataclass(frozen=True)
 class Efforts:
-    """What a job comes to, moment by moment; as in `Torques`."""
+    """What a job comes to, moment by moment; as in `MotorCommand`."""
 
     tau: Float[np.ndarray, "steps legs 3"]
     forces_w: Float[np.ndarray, "steps legs 3"]
@@ -68,9 +69,10 @@ def work_out(packed, moments, every, out):
 
     A chain that is formed or broken, a foot down or up, is a new load at once.
     """
-    n = int(packed[0])
+    first = stance_begins(moments[0])
+    last = first + int(packed[0])
     for i in range(moments.shape[0]):
-        if i % every == 0 or (moments[i, BODY : BODY + n] != moments[i - 1, BODY : BODY + n]).any():
+        if i % every == 0 or (moments[i, first:last] != moments[i - 1, first:last]).any():
             out[i] = demand(packed, moment_of(moments[i]), AS_WANTED)
         else:
             out[i] = out[i - 1]
@@ -78,10 +80,10 @@ def work_out(packed, moments, every, out):
 
 @kernel_nogil
 def share_out(packed, moments, loads, before, out):
-    """Second stage: packed efforts of some moments in turn; `before` (changed in place): the last forces."""
+    """Second stage: packed results of some moments in turn; `before` (changed in place): the last forces."""
     for i in range(moments.shape[0]):
         out[i] = distributed(packed, loads[i], moment_of(moments[i]), before)
-        before[:] = effort_of(out[i]).forces_w
+        before[:] = result_of(out[i]).forces_w
 
 
 @kernel_nogil
@@ -89,9 +91,9 @@ def share_out_linear(packed, moments, loads, settings, before, hints, out):
     """The second stage by the linear program; `hints` (changed in place): its last basis."""
     for i in range(moments.shape[0]):
         out[i] = distributed_linear(packed, loads[i], moment_of(moments[i]), before, settings, hints)
-        effort = effort_of(out[i])
-        before[:] = effort.forces_w
-        hints[:] = effort.basis
+        result = result_of(out[i])
+        before[:] = result.forces_w
+        hints[:] = result.basis
 
 
 def stream(jobs: Sequence[Job], every: int = 1, cores: int | None = None) -> list[Efforts]:
@@ -128,7 +130,7 @@ def begin(pool: ThreadPoolExecutor, job: Job, every: int) -> list[Chunk]:
 def loads(job: Job, part: slice, every: int) -> Float[np.ndarray, "steps numbers"]:
     """The first stage of some moments."""
     moments = job.moments[part]
-    out = np.empty((len(moments), 6 + 24 * job.robot.n))
+    out = np.empty((len(moments), LOAD.size(job.robot.n)))
     work_out(job.robot.packed, moments, every, out)
     return out
 
@@ -138,19 +140,19 @@ def finish(job: Job, chunks: Sequence[Chunk]) -> Efforts:
     n, steps = job.robot.n, len(job.moments)
     before = np.zeros((n, 3)) if job.start is None else job.start.copy()
     hints, settings = np.full(3 * n + 1, -1.0), np.array(job.linear)
-    out = np.empty((steps, 4 + (9 + LIMITS) * n))
+    out = np.empty((steps, LAYOUT.size(n)))
     for part, future in chunks:
         task, found = (job.robot.packed, job.moments[part], future.result()), out[part]
         if job.method == "qp":
             share_out(*task, before, found)
         else:
             share_out_linear(*task, settings, before, hints, found)
-    tau, forces, prices, _ = effort_columns(n)
+    where = LAYOUT.slices(n)
     code, culprit = out[:, 1:3].astype(np.int64).T
     return Efforts(
-        out[:, tau].reshape(steps, n, 3),
-        out[:, forces].reshape(steps, n, 3),
-        out[:, prices].reshape(steps, n, LIMITS),
+        out[:, where["tau"]].reshape(steps, n, 3),
+        out[:, where["forces_w"]].reshape(steps, n, 3),
+        out[:, where["prices"]].reshape(steps, n, LIMITS),
         out[:, 0],
         code,
         culprit,
@@ -161,7 +163,7 @@ def check(number: int, job: Job) -> None:
     """`WrongUse` where a job's moments do not fit its robot, or its settings no robot."""
     robot, shape = job.robot, job.moments.shape
     NumericalController(robot, job.method, job.linear)  # has the checks of method and settings
-    width = BODY + LEG * robot.n
+    width = MOMENT.size(robot.n)
     if shape[1] != width:
         legs = f"{robot.name} has {robot.n} legs, so {width} numbers a moment"
         raise WrongUse(f"job {number}: {legs}, not {shape[1]}")

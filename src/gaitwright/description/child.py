@@ -6,16 +6,14 @@ is refused, `{"error": sentence}`.
 
 import os
 import sys
-from dataclasses import fields
 from pathlib import Path
 
 import msgspec
-import numpy as np
 
 from gaitwright.description.derive import derive
 from gaitwright.description.mujoco_model import compiled
 from gaitwright.errors import BadFile
-from gaitwright.model.robot import Robot
+from gaitwright.model.robot import lists_of
 
 CPU_SECONDS = 30
 """CPU time for one file [s]."""
@@ -31,7 +29,7 @@ def main(path: Path) -> int:
     except BadFile as error:
         sys.stdout.buffer.write(msgspec.json.encode({"error": str(error)}))
         return BadFile.exit_code
-    sys.stdout.buffer.write(msgspec.json.encode({"robot": numbers(robot), "notes": notes}))
+    sys.stdout.buffer.write(msgspec.json.encode({"robot": lists_of(robot), "notes": notes}))
     return 0
 
 
@@ -45,14 +43,6 @@ def limit() -> None:
     resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 2))
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
     resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
-
-
-def numbers(robot: Robot) -> dict:
-    """The fields of a robot as plain lists."""
-    values = {field.name: getattr(robot, field.name) for field in fields(Robot)}
-    return {
-        name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in values.items()
-    }
 
 
 if __name__ == "__main__":

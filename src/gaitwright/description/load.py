@@ -6,17 +6,15 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
-from typing import Any
 
 import msgspec
-import numpy as np
 
 from gaitwright.description.child import CPU_SECONDS, MEMORY_BYTES
 from gaitwright.description.derive import derive
 from gaitwright.description.mujoco_model import compiled
 from gaitwright.errors import BadFile, unknown
 from gaitwright.model.catalogue import robot_file, robot_names
-from gaitwright.model.robot import Robot
+from gaitwright.model.robot import Robot, robot_of
 
 SUFFIXES = (".xml", ".mjcf", ".urdf")
 WALL_SECONDS = 60
@@ -85,12 +83,6 @@ def from_file(path: Path) -> tuple[Robot, tuple[str, ...]]:
     if answer.error:
         raise BadFile(f"{path}: {answer.error}")
     return robot_of(answer.robot), answer.notes
-
-
-def robot_of(values: dict[str, Any]) -> Robot:
-    """A robot from plain lists."""
-    arrays: dict[str, Any] = {name: np.array(v) for name, v in values.items() if isinstance(v, list)}
-    return Robot(**{**values, **arrays, "legs": tuple(values["legs"])})
 
 
 def why(child: subprocess.CompletedProcess[bytes]) -> str:

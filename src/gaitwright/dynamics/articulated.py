@@ -17,9 +17,9 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.dynamics.leg import base_at, from_last_hinge, leg_at, leg_turns, to_last_link
 from gaitwright.dynamics.newton_euler import bias_motion, link_load, motion_at_hip
 from gaitwright.model.kinematics import feet
+from gaitwright.model.leg import base_at, from_last_hinge, leg_at, leg_turns, to_last_link
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import GRAVITY, add, cross, dot, rotation, scale, sub, turn_x, turn_y, vec

@@ -19,10 +19,9 @@ from jaxtyping import Float
 
 from gaitwright.dynamics.articulated import Accelerations, accelerations, contact_arms
 from gaitwright.dynamics.newton_euler import dynamics_of, joint_accelerations, state_numbers
-from gaitwright.dynamics.tree import about_axis
 from gaitwright.dynamics.tree_laws import crossing
 from gaitwright.model.robot import Robot
-from gaitwright.numerics.geometry import GRAVITY, rotation
+from gaitwright.numerics.geometry import GRAVITY, about_axis, rotation
 from gaitwright.signals import Sensed
 
 UP = np.array([0.0, 0.0, 1.0])

@@ -20,7 +20,6 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from gaitwright.dynamics.articulated import NOTHING, Accelerations, foot_load
-from gaitwright.dynamics.leg import base_at, foot_and_columns, hinge_axes, leg_at, leg_turns
 from gaitwright.dynamics.newton_euler import (
     NO_LOAD,
     joint_accelerations,
@@ -31,6 +30,7 @@ from gaitwright.dynamics.newton_euler import (
 )
 from gaitwright.errors import WrongUse
 from gaitwright.model.kinematics import angles, feet
+from gaitwright.model.leg import base_at, foot_and_columns, hinge_axes, leg_at, leg_turns
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import GRAVITY, add, cross, rotation, scale, times, times_t, vec

@@ -5,26 +5,28 @@ mass matrix. Gravity enters as an upward acceleration of the base. Every vector 
 own link, so that a hinge costs one plane turn.
 
 Accelerations are linear in q̈ and angular velocities do not depend on it. So a leg's outward pass splits
-exactly: `bias_motion` runs it with q̈ = 0, `with_accelerations` adds what q̈ adds. A caller that first
+exactly: `leg.bias_motion` runs it with q̈ = 0, `with_accelerations` adds what q̈ adds. A caller that first
 needs the bias (to find q̈ from a wanted acceleration of the foot) thereby goes outward once.
 """
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.dynamics.leg import (
+from gaitwright.model.leg import (
     base_at,
+    bias_motion,
+    carried,
+    foot_acceleration,
     foot_and_columns,
     leg_at,
     leg_of,
     leg_turns,
-    to_leg_frame,
+    solve_columns,
 )
 from gaitwright.numerics.compiled import kernel
-from gaitwright.numerics.geometry import add, cross, dot, scale, sub, turn_x, turn_y, vec
+from gaitwright.numerics.geometry import add, cross, scale, sub, turn_x, turn_y, vec
 from gaitwright.numerics.matrices import apply, apply_t, rows, vec_at, write
 
 NO_LOAD = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
@@ -33,38 +35,10 @@ NO_LOAD = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 # --- outward -------------------------------------------------------------------------------------
 @kernel
-def carried(a, w, wd, r):
-    """Acceleration of a point at `r` on a body whose origin accelerates with `a` (eq. 4-12)."""
-    return add(a, add(cross(wd, r), cross(w, cross(w, r))))
-
-
-@kernel
-def hinge_motion(w, wd, axis_rate):
-    """Angular velocity and acceleration past a hinge that keeps its rate; child's axes (eq. 4-10, 4-11)."""
-    return add(w, axis_rate), add(wd, cross(w, axis_rate))
-
-
-@kernel
 def motion_at_hip(leg, w, wd, a):
     """Motion of the base at a leg's first hinge, turned into the leg frame."""
     at_hip = carried(a, w, wd, leg.hip)
     return apply_t(leg.frame, w), apply_t(leg.frame, wd), apply_t(leg.frame, at_hip)
-
-
-@kernel
-def bias_motion(turns, qd, offset, sign, w, wd, a):
-    """Angular velocity, angular and linear acceleration of the three links with q̈ = 0, each in its axes.
-
-    `turns`: `leg_turns` of the angles; `w`, `wd`, `a`: `motion_at_hip`.
-    """
-    (c1, s1), (c2, s2), (c3, s3) = turns
-    w1, wd1 = hinge_motion(turn_x(c1, -s1, w), turn_x(c1, -s1, wd), (qd[0], 0.0, 0.0))
-    a1 = turn_x(c1, -s1, a)
-    a2 = turn_y(c2, -s2, carried(a1, w1, wd1, offset[0]))
-    w2, wd2 = hinge_motion(turn_y(c2, -s2, w1), turn_y(c2, -s2, wd1), (0.0, qd[1], 0.0))
-    a3 = turn_y(c3, -s3, carried(a2, w2, wd2, offset[1]))
-    w3, wd3 = hinge_motion(turn_y(c3, -s3, w2), turn_y(c3, -s3, wd2), (0.0, sign * qd[2], 0.0))
-    return (w1, wd1, a1), (w2, wd2, a2), (w3, wd3, a3)
 
 
 @kernel
@@ -90,13 +64,6 @@ def links_motion(leg, turns, w, wd, a, qd, qdd):
     w0, wd0, a0 = motion_at_hip(leg, w, wd, a)
     bias = bias_motion(turns, qd, leg.offset, leg.sign, w0, wd0, a0)
     return with_accelerations(turns, bias, qdd, leg.offset, leg.sign)
-
-
-@kernel
-def foot_acceleration(turns, motion, offset):
-    """Acceleration of the foot centre, leg frame, from the motion of the links."""
-    w, wd, a = motion[2]
-    return to_leg_frame(turns, carried(a, w, wd, offset[2]))
 
 
 # --- inward --------------------------------------------------------------------------------------
@@ -225,20 +192,6 @@ def dynamics_of(packed, numbers):
     write(out, 0, force)
     write(out, 3, moment)
     return out
-
-
-@kernel
-def solve_columns(c1, c2, c3, b):
-    """x with c1 x₁ + c2 x₂ + c3 x₃ = b, by cofactors; near a singular pose the answer stays bounded.
-
-    The volume below which a pose counts as singular is 1 % of the product of the column lengths.
-    """
-    n23 = cross(c2, c3)
-    volume = dot(c1, n23)
-    floor = 0.01 * math.sqrt(dot(c1, c1) * dot(c2, c2) * dot(c3, c3)) + 1e-12
-    if abs(volume) < floor:
-        volume = math.copysign(floor, volume)
-    return scale(1.0 / volume, (dot(b, n23), dot(b, cross(c3, c1)), dot(b, cross(c1, c2))))
 
 
 @kernel

@@ -5,7 +5,6 @@ origin may be any of its points. Every joint turns freely about three axes, so a
 its own: absolute, not relative to its parent.
 """
 
-import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -15,6 +14,7 @@ from jaxtyping import Float
 from gaitwright.errors import WrongUse
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.compiled import kernel
+from gaitwright.numerics.geometry import about_axis
 
 THINNEST = 1e-6
 """Least principal moment of a link about its hinge, per its largest: Armstrong divides by it."""
@@ -179,13 +179,3 @@ def ball_rotations(
             if i >= first_link(robot, k):
                 out.append(R)
     return np.array(out)
-
-
-def about_axis(axis: int, angle: float) -> Float[np.ndarray, "3 3"]:
-    """Rotation about x (0) or y (1)."""
-    i, j = (axis + 1) % 3, (axis + 2) % 3
-    out = np.eye(3)
-    out[i, i] = out[j, j] = math.cos(angle)
-    out[j, i] = math.sin(angle)
-    out[i, j] = -out[j, i]
-    return out

@@ -2,6 +2,9 @@
 
 import math
 
+import numpy as np
+from jaxtyping import Float
+
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import wrap
 
@@ -67,3 +70,15 @@ def sample(table, phase):
         k * table[i, 7] + t * table[j, 7],
         k * table[i, 8] + t * table[j, 8],
     )
+
+
+def path(
+    command: Float[np.ndarray, "3"], time: Float[np.ndarray, "*n"]
+) -> tuple[Float[np.ndarray, "*n 2"], Float[np.ndarray, "*n"]]:
+    """Place x, y [m] and yaw [rad] of a body that holds a command from (0, 0) and yaw 0 at time 0: an arc."""
+    half = 0.5 * command[2] * time
+    along = time * np.sinc(2.0 * half / np.pi)
+    aside = time * half * np.sinc(half / np.pi) ** 2
+    x = command[0] * along - command[1] * aside
+    y = command[0] * aside + command[1] * along
+    return np.stack([x, y], axis=-1), command[2] * time

@@ -17,10 +17,10 @@ from gaitwright.gait.leg_cycles.leg_cycle import LegCycle, tabulated_legs
 from gaitwright.gait.reach_assist import helping_shift
 from gaitwright.gait.reference import periodic_reference
 from gaitwright.gait.regulation import height_over
-from gaitwright.gait.state import SEARCH, STANCE, SWING, GaitMemory, packed, standing, state_of
+from gaitwright.gait.state import SEARCH, STANCE, SWING, GaitMemory, standing, state_of
 from gaitwright.gait.swing import hip_over_ground, search_reference, swing_reference, touchdown
-from gaitwright.gait.transition import adopt, is_new, rhythm_of, takes_over
-from gaitwright.ground.foothold_map import Footing, height_at, is_known
+from gaitwright.gait.transition import adopt, has_rhythm_of, is_new, takes_over
+from gaitwright.ground.elevation import BLIND, height_at, is_known
 from gaitwright.model.kinematics import all_angles, all_feet, angles, feet, knees
 from gaitwright.model.robot import Robot, unpacked
 from gaitwright.numerics.compiled import kernel
@@ -36,7 +36,12 @@ from gaitwright.numerics.geometry import (
     upright_rotation,
     vec,
 )
-from gaitwright.signals import Gait, MotionTarget, Sensed, SkillCall
+from gaitwright.numerics.matrices import write
+from gaitwright.signals import Gait, GroundMap, MotionTarget, Sensed, SkillCall
+
+TARGET_BODY, TARGET_LEG = MotionTarget.layout.length
+target_fields = MotionTarget.layout.views(raw=True)
+sensed_fields = Sensed.layout.views()
 
 CONTACT_THRESHOLD = 0.02
 """A foot that carries this share of the weight is in contact."""
@@ -165,24 +170,20 @@ def coordinate(
     ground,
     old,
     asked,
-    position,
-    orientation,
-    velocity,
-    q,
-    load,
+    seen,
     dt,
 ):
-    """One tick of joint coordination: the new memory and what a `MotionTarget` is made of.
+    """One tick of joint coordination: the rows of the new memory and of a `MotionTarget`.
 
     `numbers`: the packed robot; `height`, `stand`: of its base over ground and foot centres; `threshold`:
     load of a foot in contact [N]; `clock`: (period, duty); `cycles`: the leg cycles, a table a leg;
-    `leans`: `shank_leans`; `ground`: what is known of it; `old`: the memory; `asked`: forward, left, yaw
-    rate.
+    `leans`: `shank_leans`; `ground`: what is known of it; `old`: the memory's row; `asked`: forward, left,
+    yaw rate; `seen`: the row of a `Sensed`.
     """
     model = unpacked(numbers)
-    period, duty = clock
-    memory = old.copy()
+    (period, duty), memory = clock, old.copy()
     state, was = state_of(memory), old[0]
+    _, position, orientation, velocity, _, q, _, load = sensed_fields(seen)
     rotation_wb = rotation(orientation)
     at, v = vec(position), vec(velocity)
     feet_w = feet_in_world(model, rotation_wb, at, q)
@@ -206,27 +207,33 @@ def coordinate(
     base_p, base_v, base_a, pitch = base_reference(state, table, stand, at, state.anchor[2])
     normal = plane_normal(state.slope)
     level = upright_rotation(normal, state.anchor[2])
-    rotation_d = pitched(level, pitch[0])
-    lateral = (rotation_d[0, 1], rotation_d[1, 1], rotation_d[2, 1])
-    spin = add(scale(pitch[1], lateral), (0.0, 0.0, state.command[2]))
-    spin_rate = scale(pitch[2], lateral)
+    rotation_d, spin, spin_rate = pitching(level, pitch, state.command[2])
     feet_p, feet_v, feet_a = feet_reference(
         model, state, clock, cycles, leans, ground, level, at, v, base_v, feet_w, height
     )
     base_p = add(base_p, helping_shift(model, state, rotation_d, base_p, feet_w, duty, height))
-    q_wanted, _ = all_angles(
-        model.hip,
-        model.leg_frame,
-        model.offset,
-        model.sign,
-        model.branch,
-        feet_in_base(rotation_d, base_p, feet_p),
-    )
-    share = shares(state, phase, period, duty, offsets, missing)
-    body = np.array((normal, base_p, base_v, base_a, spin, spin_rate))
-    legs = np.empty((4, *feet_p.shape))
-    legs[0], legs[1], legs[2], legs[3] = feet_p, feet_v, feet_a, q_wanted
-    return memory, state.mode == STANCE, share, body, rotation_d, legs
+    out = np.empty(TARGET_BODY + TARGET_LEG * felt.size)
+    target = target_fields(out)
+    target.phase[0], target.command[:] = phase, state.command
+    target.stance[:] = state.mode == STANCE
+    target.share[:] = shares(state, phase, period, duty, offsets, missing)
+    write(target.normal_w, 0, normal)
+    write_body(target, base_p, base_v, base_a, rotation_d, spin, spin_rate)
+    target.feet_w[:], target.feet_velocity_w[:], target.feet_acceleration_w[:] = feet_p, feet_v, feet_a
+    in_base = feet_in_base(rotation_d, base_p, feet_p)
+    target.q[:], _ = all_angles(model.hip, model.leg_frame, model.offset, model.sign, model.branch, in_base)
+    return memory, out
+
+
+@kernel
+def write_body(target, position, velocity, acceleration, rotation_wb, omega, omega_rate):
+    """Writes what the body should do into a target's fields."""
+    write(target.position_w, 0, position)
+    write(target.velocity_w, 0, velocity)
+    write(target.acceleration_w, 0, acceleration)
+    target.rotation_wb[:] = rotation_wb
+    write(target.angular_velocity_w, 0, omega)
+    write(target.angular_acceleration_w, 0, omega_rate)
 
 
 @kernel
@@ -235,6 +242,14 @@ def turned(rotation_wb, lean):
     c, s = rotation_wb[0, 0], rotation_wb[1, 0]
     k = 1.0 / math.hypot(c, s)
     return k * (c * lean[0] - s * lean[1]), k * (s * lean[0] + c * lean[1])
+
+
+@kernel
+def pitching(level, pitch, turn):
+    """Rotation, angular velocity and acceleration of a body that pitches (θ, θ̇, θ̈) and turns [rad/s]."""
+    rotation_d = pitched(level, pitch[0])
+    lateral = (rotation_d[0, 1], rotation_d[1, 1], rotation_d[2, 1])
+    return rotation_d, add(scale(pitch[1], lateral), (0.0, 0.0, turn)), scale(pitch[2], lateral)
 
 
 @kernel
@@ -274,74 +289,54 @@ class Coordinator:
     robot: Robot
     dt: float
     """Control period [s]."""
-    footing: Footing = field(default_factory=Footing.blind)
-    """What is known of the ground ahead of the feet."""
     cycles: dict[str, LegCycle] = field(default_factory=dict)
     """Leg cycles by skill, in place of those that come along."""
-    known: dict[Gait, Cycle] = field(default_factory=dict)
-    """Cycles worked out so far, by gait."""
+    known: dict[Gait, Cycle] = field(default_factory=dict, init=False, repr=False, compare=False)
+    """Cycles worked out so far: each is a function of its gait, so what is here changes no result."""
 
     def begin(self, sensed: Sensed, phase: float = 0.0) -> GaitMemory:
         """The memory of a robot that stands as sensed and will start its first gait at `phase`."""
         turn = rotation(sensed.orientation_wb)
         feet_w = feet_in_world(self.robot.arrays, turn, tuple(sensed.position_w), sensed.q)
-        return packed(standing(feet_w, sensed.position_w, heading(turn), phase))
+        return standing(feet_w, sensed.position_w, heading(turn), phase)
 
-    def move(self, memory: GaitMemory, call: SkillCall, sensed: Sensed) -> tuple[MotionTarget, GaitMemory]:
+    def move(
+        self, memory: GaitMemory, call: SkillCall, sensed: Sensed, ground: GroundMap | None = None
+    ) -> tuple[MotionTarget, GaitMemory]:
         """What body, feet and joints should do now, and the memory for the next tick."""
         robot = self.robot
-        cycle = self.cycle(self.possible(memory, call, sensed))
-        memory, stance, share, body, attitude, legs = coordinate(
+        gait = self.possible(memory, call, sensed)
+        cycle = self.cycle(gait)
+        row, target = coordinate(
             robot.packed,
             robot.height,
             robot.stand,
-            CONTACT_THRESHOLD * GRAVITY * robot.total_mass,
+            self.threshold,
             cycle.table,
             cycle.clock,
             cycle.offsets,
             cycle.legs,
             self.leans,
-            self.footing.ground,
-            memory,
+            BLIND if ground is None else ground.footholds,
+            memory.row,
             (call.velocity[0], call.velocity[1], call.turn),
-            sensed.position_w,
-            sensed.orientation_wb,
-            sensed.velocity_w,
-            sensed.q,
-            sensed.load,
+            sensed.row,
             self.dt,
         )
-        normal, at, velocity, acceleration, spin, spin_rate = body
-        feet_p, feet_velocity, feet_acceleration, q_wanted = legs
-        target = MotionTarget(
-            phase=float(memory[0]),
-            stance=stance,
-            share=share,
-            normal_w=normal,
-            position_w=at,
-            velocity_w=velocity,
-            acceleration_w=acceleration,
-            rotation_wb=attitude,
-            angular_velocity_w=spin,
-            angular_acceleration_w=spin_rate,
-            feet_w=feet_p,
-            feet_velocity_w=feet_velocity,
-            feet_acceleration_w=feet_acceleration,
-            q=q_wanted,
-            command=memory[1:4],
-        )
-        return target, memory
+        return MotionTarget.of_row(target), GaitMemory(row, gait)
 
     def possible(self, memory: GaitMemory, call: SkillCall, sensed: Sensed) -> Gait:
         """The gait that is asked for, or the one in use as long as the robot is too fast for it."""
-        gait, (period, duty, offsets) = call.gait, rhythm_of(memory)
-        if period <= 0.0 or (gait.period, gait.duty, gait.offsets) == (period, duty, offsets):
-            return gait
+        asked, now = call.gait, memory.gait
+        if now is None or asked is now or has_rhythm_of(asked, now):
+            return asked
         speed = math.hypot(sensed.velocity_w[0], sensed.velocity_w[1])
-        if takes_over(gait, speed, self.robot.height):
-            return gait
-        same = (g for g in self.known if (g.period, g.duty, g.offsets) == (period, duty, offsets))
-        return next(same, Gait("in use", period, duty, offsets))
+        return asked if takes_over(asked, speed, self.robot.height) else now
+
+    @cached_property
+    def threshold(self) -> float:
+        """Load of a foot that is in contact [N]."""
+        return CONTACT_THRESHOLD * GRAVITY * self.robot.total_mass
 
     @cached_property
     def leans(self) -> Float[np.ndarray, "legs 2"]:

@@ -11,21 +11,15 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from gaitwright.errors import WrongUse
-from gaitwright.gait.command import sample
-from gaitwright.gait.cycle_numbers import check_numbers
+from gaitwright.gait.command import path, sample
+from gaitwright.gait.leg_cycles.files import cycle_of
+from gaitwright.gait.leg_cycles.leg_cycle import LegCycle, tabulated_legs
 from gaitwright.gait.reference import periodic_reference
-from gaitwright.gait.swing import CLEARANCE, bump, smooth
-from gaitwright.model.kinematics import REACHED, all_angles
-from gaitwright.model.leg_motion import (
-    BaseMotion,
-    acceleration_from_base,
-    all_joint_accelerations,
-    all_joint_rates,
-    velocity_from_base,
-)
+from gaitwright.gait.swing import swings
+from gaitwright.model.kinematics import REACHED
+from gaitwright.model.leg_motion import BaseMotion, acceleration_from_base, joints_of, velocity_from_base
 from gaitwright.model.reach import LIMIT_TOLERANCE, reach
-from gaitwright.model.robot import Robot, unpacked
-from gaitwright.numerics.compiled import kernel
+from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, quaternion_of
 from gaitwright.signals import Gait, MotionTarget, Sensed
 
@@ -40,7 +34,9 @@ class Manner:
     height: float | None = None
     """Base origin over the centres of the feet [m]; `None`: as in the nominal stance."""
     lift: float | None = None
-    """How high a foot is swung [m]; `None`: as the coordinator swings it."""
+    """How high every foot is swung [m]; `None`: as high as its leg cycle says."""
+    cycle: LegCycle | None = None
+    """The leg cycle that the feet follow; `None`: the one that comes along for the gait."""
     sways: bool = False
     """Whether the body sways, bobs and pitches with its periodic reference; else it stays level."""
 
@@ -139,8 +135,7 @@ def desired_cycle(
     """
     manner = manner or Manner()
     command = np.array([velocity[0], velocity[1], turn], dtype=float)
-    check(robot, gait, command, steps)
-    check_numbers(gait, command, manner.height, manner.lift)
+    check(robot, gait, command, manner, steps)
     time = gait.period * np.arange(steps) / steps
     body = body_motion(robot, gait, command, manner, time)
     stance, feet, feet_v, feet_a = feet_motion(robot, gait, command, manner, time)
@@ -153,8 +148,9 @@ def desired_cycle(
     return DesiredCycle(robot, gait, command, time, stance, *body, feet, feet_v, feet_a, q, qd, qdd)
 
 
-def check(robot: Robot, gait: Gait, command: Float[np.ndarray, "3"], steps: int) -> None:
-    """`WrongUse` for what is no gait of this robot."""
+# --- what is refused -------------------------------------------------------------------------------
+def check(robot: Robot, gait: Gait, command: Float[np.ndarray, "3"], manner: Manner, steps: int) -> None:
+    """`WrongUse` for what is no gait of this robot, and for a number that is none."""
     if len(gait.offsets) != robot.n:
         raise WrongUse(
             f"gait {gait.name!r} is for {len(gait.offsets)} legs; {robot.name} has {robot.n}: "
@@ -164,21 +160,30 @@ def check(robot: Robot, gait: Gait, command: Float[np.ndarray, "3"], steps: int)
         raise WrongUse(f"a cycle of {steps} samples is none; ask for 1 or more")
     if gait.duty >= 1.0 and command.any():
         raise WrongUse(f"gait {gait.name!r} lifts no foot (duty factor {gait.duty:g}): it cannot move")
+    check_numbers(gait, command)
+    for what, value in (("height", manner.height), ("lift", manner.lift)):
+        if value is not None and not np.isfinite(value):
+            raise WrongUse(f"a {what} of {value:g} m was asked for; it must be finite")
+
+
+def check_numbers(gait: Gait, command: Float[np.ndarray, "3"]) -> None:
+    """`WrongUse` for a velocity that is none, and for numbers that no gait can have."""
+    if not np.isfinite(command).all():
+        raise WrongUse(
+            f"velocity {command[0]:g}, {command[1]:g} m/s and yaw rate {command[2]:g} rad/s: "
+            "every number must be finite"
+        )
+    if not 0.0 < gait.period < np.inf:
+        raise WrongUse(f"gait {gait.name!r} has a period of {gait.period:g} s; it must be above 0 and finite")
+    if not 0.0 < gait.duty <= 1.0:
+        raise WrongUse(
+            f"gait {gait.name!r} has a duty factor of {gait.duty:g}; it must be above 0, at most 1"
+        )
+    if not np.isfinite(gait.offsets).all():
+        raise WrongUse(f"gait {gait.name!r} has offsets {gait.offsets}; every one must be finite")
 
 
 # --- the body --------------------------------------------------------------------------------------
-def path(
-    command: Float[np.ndarray, "3"], time: Float[np.ndarray, "*n"]
-) -> tuple[Float[np.ndarray, "*n 2"], Float[np.ndarray, "*n"]]:
-    """Place x, y [m] and yaw [rad] of a body that holds a command from (0, 0) and yaw 0 at time 0: an arc."""
-    half = 0.5 * command[2] * time
-    along = time * np.sinc(2.0 * half / np.pi)
-    aside = time * half * np.sinc(half / np.pi) ** 2
-    x = command[0] * along - command[1] * aside
-    y = command[0] * aside + command[1] * along
-    return np.stack([x, y], axis=-1), command[2] * time
-
-
 def body_motion(
     robot: Robot, gait: Gait, command: Float[np.ndarray, "3"], manner: Manner, time: Float[np.ndarray, "n"]
 ) -> tuple[Array, Array, Array, Array, Array, Array]:
@@ -189,7 +194,7 @@ def body_motion(
     height = robot.stand if manner.height is None else manner.height
     nothing = np.zeros_like(time)
     w = command[2]
-    spin = w * UP
+    omega = w * UP
     offset = np.stack([nothing, y, z + height + robot.foot_radius.mean()], axis=1)
     offset_d, offset_dd = np.stack([nothing, yd, zd], axis=1), np.stack([nothing, ydd, zdd], axis=1)
     v = np.array([command[0], command[1], 0.0])
@@ -199,14 +204,14 @@ def body_motion(
     lateral, up = np.cross(UP, forward), np.broadcast_to(UP, forward.shape)
     heading = np.stack([forward, lateral, up], axis=2)
     c, s = np.cos(pitch)[:, None], np.sin(pitch)[:, None]
-    acceleration = np.cross(spin, v) + offset_dd + 2.0 * np.cross(spin, offset_d)
+    acceleration = np.cross(omega, v) + offset_dd + 2.0 * np.cross(omega, offset_d)
     return (
         np.pad(place, ((0, 0), (0, 1))) + apply(heading, offset),
-        apply(heading, v + offset_d + np.cross(spin, offset)),
-        apply(heading, acceleration + np.cross(spin, np.cross(spin, offset))),
+        apply(heading, v + offset_d + np.cross(omega, offset)),
+        apply(heading, acceleration + np.cross(omega, np.cross(omega, offset))),
         np.stack([c * forward - s * up, lateral, s * forward + c * up], axis=2),
-        spin + pitch_d[:, None] * lateral,
-        pitch_dd[:, None] * lateral + pitch_d[:, None] * np.cross(spin, lateral),
+        omega + pitch_d[:, None] * lateral,
+        pitch_dd[:, None] * lateral + pitch_d[:, None] * np.cross(omega, lateral),
     )
 
 
@@ -223,21 +228,31 @@ def feet_motion(
 ) -> tuple[Array, Array, Array, Array]:
     """The feet over time, `(n, legs …)`: whether they are down, and position, velocity, acceleration.
 
-    A foot that swings leaves and meets the ground without velocity and acceleration against it.
+    A foot swings as it does under the coordinator (`gait/swing.py`), and is aimed at the ground, not below
+    it: it leaves and meets it without velocity and acceleration against it.
     """
-    lift = CLEARANCE * robot.height if manner.lift is None else manner.lift
     along = time[:, None] / gait.period + np.asarray(gait.offsets)
     cycle = np.floor(along)
     stance = along - cycle < gait.duty
     start, end = (foothold(robot, gait, command, cycle + k) for k in (0, 1))
     air = max(1.0 - gait.duty, 1e-9)
-    s = np.where(stance, 0.0, (along - cycle - gait.duty) / air)[..., None]
-    flies = ~stance[..., None] / (air * gait.period)
-    b, bd, bdd = smooth(s)
-    u, ud, udd = (lift * np.append(np.zeros(2), 1.0) * part for part in bump(s))
-    way = end - start
-    position = start + way * b + u
-    return stance, position, (way * bd + ud) * flies, (way * bdd + udd) * flies**2
+    s = np.where(stance, 0.0, (along - cycle - gait.duty) / air)
+    tables, rise = swing_of(robot, gait, manner)
+    return stance, *swings(start, end, s, stance, air * gait.period, rise, tables)
+
+
+def swing_of(
+    robot: Robot, gait: Gait, manner: Manner
+) -> tuple[Float[np.ndarray, "legs samples 6"], Float[np.ndarray, "legs"]]:
+    """The leg cycle of each leg as a table, and what its heights are multiplied by [m]."""
+    cycle = manner.cycle or cycle_of(gait.name)
+    tables = tabulated_legs(cycle, robot.n)
+    if manner.lift is None:
+        return tables, np.full(robot.n, robot.height)
+    peaks = tables[..., 3].max(axis=1)
+    if not peaks.all():
+        raise WrongUse(f"leg cycle {cycle.name!r} lifts no foot: it cannot be swung {manner.lift:g} m high")
+    return tables, manner.lift / peaks
 
 
 def foothold(
@@ -257,27 +272,12 @@ def joint_motion(
     robot: Robot, body: tuple[Array, ...], feet: Array, feet_v: Array, feet_a: Array
 ) -> tuple[Array, Array, Array, Array]:
     """Joint angles, rates, accelerations `(steps, legs, 3)` of a motion, and reach codes `(steps, legs)`."""
-    position, velocity, acceleration, R, spin, spin_rate = body
-    spin_b, spin_rate_b = (np.einsum("ij,ijk->ik", vectors, R)[:, None] for vectors in (spin, spin_rate))
-    base = BaseMotion(R, velocity[:, None], spin_b, acceleration[:, None], spin_rate_b)
+    position, velocity, acceleration, R, omega, omega_rate = body
+    omega_b, omega_rate_b = (np.einsum("ij,ijk->ik", vectors, R)[:, None] for vectors in (omega, omega_rate))
+    base = BaseMotion(R, velocity[:, None], omega_b, acceleration[:, None], omega_rate_b)
     feet_b = (feet - position[:, None]) @ R
     relative = velocity_from_base(base, feet_b, feet_v)
     return joints_of(robot.packed, feet_b, relative, acceleration_from_base(base, feet_b, relative, feet_a))
-
-
-@kernel
-def joints_of(packed, feet_b, velocity_b, acceleration_b):
-    """Joint angles, rates, accelerations and reach codes for feet that move so relative to the base."""
-    model = unpacked(packed)
-    q, qd, qdd = np.empty(feet_b.shape), np.empty(feet_b.shape), np.empty(feet_b.shape)
-    codes = np.empty(feet_b.shape[:2], dtype=np.int64)
-    for i in range(feet_b.shape[0]):
-        q[i], codes[i] = all_angles(
-            model.hip, model.leg_frame, model.offset, model.sign, model.branch, feet_b[i]
-        )
-        qd[i], _ = all_joint_rates(model, q[i], velocity_b[i])
-        qdd[i], _ = all_joint_accelerations(model, q[i], qd[i], acceleration_b[i])
-    return q, qd, qdd, codes
 
 
 def distances(robot: Robot, body: tuple[Array, ...], feet: Array, codes: Array) -> Array:

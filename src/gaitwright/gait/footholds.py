@@ -7,7 +7,7 @@ place that is neither, with some preference for the one chosen so far, so that a
 import math
 from typing import NamedTuple
 
-from gaitwright.ground.foothold_map import height_at, is_known, nearest
+from gaitwright.ground.elevation import height_at, is_known, nearest
 from gaitwright.numerics.compiled import kernel
 
 SEARCHED = 0.6

@@ -2,6 +2,8 @@
 
 import math
 
+import numpy as np
+
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import GRAVITY
 
@@ -9,32 +11,12 @@ AIM_BELOW = 0.03
 """The touch-down is aimed this share of the body height below the ground, so that it happens."""
 REACH_DOWN = 0.8
 """From this share of the swing on, the foot speeds up downwards, to the speed of lowering a late leg."""
-CLEARANCE = 0.2
-"""Height of the swing over the straight line, in body heights."""
 REACH = 0.6
 """Longest step from under the hip, in body heights."""
 SEARCH_DEPTH = 0.25
 """How far a late leg is lowered, in body heights."""
 SEARCH_FROUDE = 0.5
 """Speed of lowering a late leg over √(g h): 0.3 m/s at h = 0.29 m."""
-
-
-@kernel
-def smooth(s):
-    """b(s) = 10s³ − 15s⁴ + 6s⁵ with its first two derivatives."""
-    return (
-        s * s * s * (10.0 + s * (6.0 * s - 15.0)),
-        30.0 * s * s * (1.0 + s * (s - 2.0)),
-        60.0 * s * (1.0 + s * (2.0 * s - 3.0)),
-    )
-
-
-@kernel
-def bump(s):
-    """64 s³(1 − s)³, one at mid-swing, with its first two derivatives."""
-    r = s * (1.0 - s)
-    dr = 1.0 - 2.0 * s
-    return 64.0 * r * r * r, 192.0 * r * r * dr, 384.0 * r * (dr * dr - r)
 
 
 @kernel
@@ -92,20 +74,44 @@ def on_cycle(table, s):
 
 
 @kernel
+def along_cycle(origin, end, s, duration, rise, table, out_p, out_v, out_a):
+    """Writes position, velocity and acceleration of a foot at share `s` of its swing from `origin` to `end`.
+
+    `table`: the leg cycle; `rise`: what its heights are multiplied by [m]. The one law of a swing: feet that
+    are steered (`swing_reference`) and feet whose motion is worked out beforehand (`swings`) follow it.
+    """
+    b, db, ddb, u, du, ddu = on_cycle(table, s)
+    for i in range(3):
+        way = end[i] - origin[i]
+        k = rise if i == 2 else 0.0
+        out_p[i] = origin[i] + way * b + k * u
+        out_v[i] = (way * db + k * du) / duration
+        out_a[i] = (way * ddb + k * ddu) / (duration * duration)
+
+
+@kernel
+def swings(start, end, s, stance, duration, rise, tables):
+    """Position, velocity, acceleration `(n, legs, 3)` of feet that stand at `start` or swing to `end`."""
+    p, v, a = start.copy(), np.zeros(start.shape), np.zeros(start.shape)
+    for i in range(start.shape[0]):
+        for leg in range(start.shape[1]):
+            if not stance[i, leg]:
+                along_cycle(
+                    start[i, leg], end[i, leg], s[i, leg], duration, rise[leg], tables[leg],
+                    p[i, leg], v[i, leg], a[i, leg],
+                )  # fmt: skip
+    return p, v, a
+
+
+@kernel
 def swing_reference(origin, x, y, ground, s, duration, height, table, lift, out_p, out_v, out_a):
     """Writes position, velocity and acceleration of a foot at share `s` of its swing to `(x, y)`.
 
     `ground`: height of the foot centre at touch-down [m]; `table`: the leg cycle; `lift`: what its height is
     multiplied by. At the end the foot speeds up downwards, so that it meets the ground on time.
     """
-    b, db, ddb, u, du, ddu = on_cycle(table, s)
-    rise = lift * height
-    way = (x - origin[0], y - origin[1], ground - AIM_BELOW * height - origin[2])
-    for i in range(3):
-        k = rise if i == 2 else 0.0
-        out_p[i] = origin[i] + way[i] * b + k * u
-        out_v[i] = (way[i] * db + k * du) / duration
-        out_a[i] = (way[i] * ddb + k * ddu) / (duration * duration)
+    end = (x, y, ground - AIM_BELOW * height)
+    along_cycle(origin, end, s, duration, lift * height, table, out_p, out_v, out_a)
     if s > REACH_DOWN:
         down = SEARCH_FROUDE * math.sqrt(GRAVITY * height)
         late, last = (s - REACH_DOWN) * duration, (1.0 - REACH_DOWN) * duration

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from gaitwright.gait.state import STANCE, GaitMemory, state_of
+from gaitwright.gait.state import STANCE
 from gaitwright.gait.swing import REACH, hip_over_ground, on_cycle
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import GRAVITY
@@ -33,10 +33,9 @@ def takes_over(gait: Gait, speed: float, height: float) -> bool:
     return 0.5 * speed * gait.period * gait.duty < REACH_SHARE * REACH * height
 
 
-def rhythm_of(memory: GaitMemory) -> tuple[float, float, tuple[float, ...]]:
-    """Period [s], duty factor and phases of the gait that a memory is in the middle of; 0 s: of none yet."""
-    state = state_of(memory)
-    return float(state.clock[0]), float(state.clock[1]), tuple(state.offset.tolist())
+def has_rhythm_of(gait: Gait, other: Gait) -> bool:
+    """Whether two gaits have the same period, duty factor and phases."""
+    return (gait.period, gait.duty, gait.offsets) == (other.period, other.duty, other.offsets)
 
 
 @kernel

@@ -9,7 +9,6 @@ from jaxtyping import Float
 from gaitwright.errors import WrongUse
 from gaitwright.ground import layouts, scene_file, scenes_list
 from gaitwright.ground.terrain import Box, Number, Surface
-from gaitwright.model.robot import Robot
 
 BLIND_STEP, SEEN_STEP = 0.2, 0.36
 """Highest box stepped on blind, and by feet that know the ground ahead, as shares of `Robot.height`."""
@@ -51,9 +50,16 @@ class Scene:
         """Height of the top of one of the boxes [m]."""
         return float(self.surface.height(box.x, box.y)) + box.base + box.height
 
-    def obstacles(self, robot: Robot, step: float = BLIND_STEP) -> tuple[Box, ...]:
-        """The boxes that are too high for the robot to step on: higher than `step` times its height."""
-        return tuple(box for box in self.boxes if box.height > step * robot.height)
+    def obstacles(self, step: float) -> tuple[Box, ...]:
+        """The boxes that are too high to step on: higher than `step` [m], but for the floor under the start.
+
+        A floor of boxes is the one under the start, with all whose tops are no higher than it and a step.
+        """
+        x, y, _ = self.start
+        start = float(self.height(x, y))
+        on_box = start > float(self.surface.height(x, y))
+        high = (box for box in self.boxes if box.height > step)
+        return tuple(box for box in high if not (on_box and self.top(box) <= start + step))
 
     def _tops(self, x: Number, y: Number) -> Float[np.ndarray, "..."]:
         """Top of the highest box at a place [m], -inf where there is none."""

@@ -15,7 +15,11 @@ ValueMaps = Mapping[str, Mapping[str, str]]
 
 
 def mirrored(
-    book: Rulebook, name: str, new_name: str, action_map: Callable[[Action], Action], value_maps: ValueMaps
+    rulebook: Rulebook,
+    name: str,
+    new_name: str,
+    action_map: Callable[[Action], Action],
+    value_maps: ValueMaps,
 ) -> Learned:
     """The rulebook with a proposed rule: the old one's instances carried over, and the marks that fit them.
 
@@ -23,37 +27,37 @@ def mirrored(
     was carried over. Where the maps put right and wrong in one place, nothing changes and the trouble says
     so.
     """
-    rule = book[name]
-    _check_maps(book.forest, value_maps)
-    if any(other.name == new_name for other in book.rules):
+    rule = rulebook[name]
+    _check_maps(rulebook.forest, value_maps)
+    if any(other.name == new_name for other in rulebook.rules):
         raise WrongUse(f"there is a rule {new_name!r} already")
     shell = replace(
-        empty_rule(book.forest, new_name, action_map(rule.action)),
-        positives=tuple(_carried(instance, name, value_maps) for instance in rule.positives),
-        negatives=tuple(_carried(instance, name, value_maps) for instance in rule.negatives),
+        empty_rule(rulebook.forest, new_name, action_map(rule.action)),
+        positives=tuple(_map_instance(instance, name, value_maps) for instance in rule.positives),
+        negatives=tuple(_map_instance(instance, name, value_maps) for instance in rule.negatives),
         choices=rule.choices,
         proposed=True,
     )
-    fitted = refit(book.forest, tightened(book.forest, shell))
+    fitted = refit(rulebook.forest, tightened(rulebook.forest, shell))
     if not isinstance(fitted, Rule):
-        return Learned(book, (), contradiction(book, shell, fitted[0], fitted))
+        return Learned(rulebook, (), contradiction(rulebook, shell, fitted[0], fitted))
     why = f"{new_name} is proposed as the counterpart of {name}; nobody has seen it yet"
     event = Event("", new_name, "", "rule", name, new_name, why)
-    new = replace(book, rules=(*book.rules, fitted), events=(*book.events, event))
+    new = replace(rulebook, rules=(*rulebook.rules, fitted), events=(*rulebook.events, event))
     return Learned(new, (event,))
 
 
-def confirm(book: Rulebook, name: str, instance: str) -> Learned:
+def confirm(rulebook: Rulebook, name: str, instance: str) -> Learned:
     """The rulebook in which a proposed rule may fire. Raises `WrongUse` for a rule that is not proposed."""
-    rule = book[name]
+    rule = rulebook[name]
     if not rule.proposed:
         raise WrongUse(f"{name} is not proposed: there is nothing to confirm")
     event = Event(instance, name, "", "rule", "proposed", "confirmed", f"{name} was confirmed at {instance}")
-    rules = book.with_rule(replace(rule, proposed=False))
-    return Learned(replace(book, rules=rules, events=(*book.events, event)), (event,))
+    rules = rulebook.with_rule(replace(rule, proposed=False))
+    return Learned(replace(rulebook, rules=rules, events=(*rulebook.events, event)), (event,))
 
 
-def _carried(instance: Instance, name: str, value_maps: ValueMaps) -> Instance:
+def _map_instance(instance: Instance, name: str, value_maps: ValueMaps) -> Instance:
     """An instance as it would be on the other side, marked as never seen."""
     values = tuple(
         None if value is None else value_maps.get(tree, {}).get(value, value)

@@ -34,13 +34,13 @@ class Compiled:
     by_value: tuple[dict[str, tuple[int, int]], ...]
 
 
-def compile_book(book: Rulebook) -> Compiled:
+def compile_book(rulebook: Rulebook) -> Compiled:
     """The rulebook as masks. It knows nothing of later changes: compile anew after a lesson."""
-    forest = book.forest
+    forest = rulebook.forest
     rows, low_rows = [], []
     for place, tree in enumerate(forest.trees):
         ups, lows = [0] * len(tree.leaves), [0] * len(tree.leaves)
-        for bit, rule in enumerate(book.rules):
+        for bit, rule in enumerate(rulebook.rules):
             marks = rule.marks[place]
             below = tree.sets[tree.at(marks.upper)] if rule.may_fire else 0
             inside = tree.sets[tree.at(marks.lower)] if marks.lower is not None else 0
@@ -50,9 +50,9 @@ def compile_book(book: Rulebook) -> Compiled:
         rows.append(tuple(ups))
         low_rows.append(tuple(lows))
     sizes = [len(tree.leaves) for tree in forest.trees]
-    words = max(1, -(-len(book.rules) // WORD))
+    words = max(1, -(-len(rulebook.rules) // WORD))
     return Compiled(
-        tuple(rule.name for rule in book.rules),
+        tuple(rule.name for rule in rulebook.rules),
         forest.names,
         _words(rows, words),
         _words(low_rows, words),

@@ -21,18 +21,18 @@ class Decision:
     situation: Situation
 
 
-def consult(book: Rulebook, situation: Situation) -> Decision:
+def consult(rulebook: Rulebook, situation: Situation) -> Decision:
     """The first rule of the conflict set. The rules' order is the book's: what the modifier made of
     preferences.
 
     (a) All rules share the book's forest, so it is merged as it stands. (b, c) Each value of the situation is
     set into its tree and leaves the rules whose upper mark it is below. (d) The first of these is applied.
     """
-    conflict = [rule for rule in book.rules if rule.may_fire]
-    for place, (tree, value) in enumerate(zip(book.forest.trees, situation.values, strict=True)):
+    conflict = [rule for rule in rulebook.rules if rule.may_fire]
+    for place, (tree, value) in enumerate(zip(rulebook.forest.trees, situation.values, strict=True)):
         conflict = [rule for rule in conflict if covers(tree, rule.marks[place].upper, value)]
     if not conflict:
         return Decision(None, (), "none", (), situation)
-    doubts = tuple(grey(book.forest, conflict[0], situation))
+    doubts = tuple(grey(rulebook.forest, conflict[0], situation))
     names = tuple(rule.name for rule in conflict)
     return Decision(names[0], names, "grey" if doubts else "sure", doubts, situation)

@@ -10,7 +10,7 @@ from gaitwright.knowledge.compiled import Compiled, compile_book
 from gaitwright.knowledge.consult import Decision, consult
 from gaitwright.knowledge.forest import Forest, Situation
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.knowledge.trees import Tree
+from gaitwright.knowledge.trees import FeatureTree
 
 MAX_TRIED = 20_000
 """So many partial changes are looked at before the search gives up."""
@@ -40,7 +40,7 @@ Options = tuple[tuple[int, int, int], ...]
 
 
 def counterfactual(
-    book: Rulebook,
+    rulebook: Rulebook,
     situation: Situation,
     to: str = "",
     keep: Collection[str] = (),
@@ -52,10 +52,10 @@ def counterfactual(
     `compiled` spares compiling a book that is asked often. Raises `WrongUse` for a rule or tree that does
     not exist.
     """
-    forest, table = book.forest, compiled or compile_book(book)
+    forest, table = rulebook.forest, compiled or compile_book(rulebook)
     for tree in keep:
         forest[tree]
-    now = consult(book, situation)
+    now = consult(rulebook, situation)
     if to and to not in table.names:
         raise unknown("rule", to, table.names)
     if to and now.rule == to:
@@ -68,7 +68,7 @@ def counterfactual(
         wanted = f"{to} fires" if to else "anything else is decided"
         return Counterfactual((), None, f"no change was found after which {wanted}{_kept_text(keep)}")
     changed = forest.at(found)
-    decision = consult(book, changed)
+    decision = consult(rulebook, changed)
     assert decision.rule == (to or decision.rule) and decision.rule != now.rule, (
         "the search misjudged a change"
     )
@@ -77,8 +77,8 @@ def counterfactual(
         for (tree, before), after in zip(situation.items(), changed.values, strict=True)
         if before != after
     )
-    told = " and ".join(_said(forest[change.tree], change) for change in changes)
-    return Counterfactual(changes, decision, f"{decision.rule or 'no rule'} would fire if {told}")
+    condition = " and ".join(_said(forest[change.tree], change) for change in changes)
+    return Counterfactual(changes, decision, f"{decision.rule or 'no rule'} would fire if {condition}")
 
 
 def _search(
@@ -146,7 +146,7 @@ def _cost(away: list[list[int]], start: tuple[int, ...], leaves: tuple[int, ...]
     return changed, sum(steps[leaf] for steps, leaf in zip(away, leaves, strict=True))
 
 
-def _said(tree: Tree, change: Change) -> str:
+def _said(tree: FeatureTree, change: Change) -> str:
     return f"{tree.about or tree.name + ' is'} {change.after} instead of {change.before}"
 
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from gaitwright.knowledge.forest import Forest, Situation
 from gaitwright.knowledge.rules import Choice, Marks
-from gaitwright.knowledge.trees import Tree
+from gaitwright.knowledge.trees import FeatureTree
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +56,7 @@ def discriminate(
     return Discrimination(changed, Choice(mark.tree, others))
 
 
-def lowered(tree: Tree, marks: Marks, value: str) -> str:
+def lowered(tree: FeatureTree, marks: Marks, value: str) -> str:
     """The upper mark lowered just enough to exclude the value (E, step e); as it is where it excludes it
     already.
 

@@ -7,16 +7,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby, pairwise
 
-from gaitwright.knowledge.forest import Forest, Situation
-from gaitwright.knowledge.generalise import raised
+from gaitwright.errors import WrongUse
+from gaitwright.knowledge.forest import OTHER, Forest, leaf_in
 from gaitwright.knowledge.mark_fitting import fit_all, with_instance
 from gaitwright.knowledge.memory import Fact
 from gaitwright.knowledge.modifier import Inconsistency, Learned, closed, contradiction, moves
-from gaitwright.knowledge.rules import Event, Instance, Marks, Rule, Rulebook
-from gaitwright.knowledge.trees import ROOT, Tree, interval_tree, tree
+from gaitwright.knowledge.rules import Event, Rule, Rulebook
+from gaitwright.knowledge.trees import ROOT, FeatureTree, interval_tree, tree
+from gaitwright.knowledge.widen import seen_in, widened
 
-OTHER = "other"
-"""The leaf of a new tree for values that nobody has met yet."""
 MOST_BOUNDS = 3
 
 
@@ -28,54 +27,51 @@ class Proposal:
     with the spread of that measurement over all instances: the larger, the less it is chance.
     """
 
-    tree: Tree
+    tree: FeatureTree
     clearness: float
     sentence: str
     trouble: Inconsistency
 
 
-def propose_features(book: Rulebook, trouble: Inconsistency) -> tuple[Proposal, ...]:
+def propose_features(rulebook: Rulebook, trouble: Inconsistency) -> tuple[Proposal, ...]:
     """Features made from what was measured besides the situation, the best first; none where nothing differs.
 
     Only a measurement that tells apart all that were right and wrong in the same situation will do. Those
     with fewer bounds come first, then the clearer ones.
     """
-    rule = with_instance(book[trouble.rule], trouble.instance)
+    rule = with_instance(rulebook[trouble.rule], trouble.instance)
     wrong_at = {negative.situation for negative in rule.negatives}
     rights = [right for right in rule.positives if right.situation in wrong_at]
     right_at = {right.situation for right in rights}
     wrongs = [wrong for wrong in rule.negatives if wrong.situation in right_at]
-    everyone = [instance for other in book.rules for instance in (*other.positives, *other.negatives)]
+    everyone = [instance for other in rulebook.rules for instance in (*other.positives, *other.negatives)]
     proposals = []
     for source in sorted({name for right in rights for name in right.raw}):
         known = [instance.raw[source] for instance in (*everyone, trouble.instance) if source in instance.raw]
         right_values = [right.raw[source] for right in rights if source in right.raw]
         wrong_values = [wrong.raw[source] for wrong in wrongs if source in wrong.raw]
         if len(wrong_values) == len(wrongs):
-            proposals += _proposal(book.forest, source, right_values, wrong_values, known, trouble)
+            proposals += _proposal(rulebook.forest, source, right_values, wrong_values, known, trouble)
     return tuple(sorted(proposals, key=lambda proposal: (len(proposal.tree.bounds), -proposal.clearness)))
 
 
-def accept(book: Rulebook, proposal: Proposal) -> Learned:
+def accept(rulebook: Rulebook, proposal: Proposal) -> Learned:
     """The rulebook with the new tree, every instance placed in it by its measurement, and the lesson learned.
 
     An instance without that measurement keeps no value there: a right one binds no mark of the new tree, a
-    wrong one cannot be kept out by it.
+    wrong one cannot be kept out by it. Raises `WrongUse` for a feature that the rulebook has.
     """
     added, trouble = proposal.tree, proposal.trouble
-    forest = Forest((*book.forest.trees, added))
-    rules = tuple(_with_tree(rule, added) for rule in book.rules)
-    wishes = tuple(
-        replace(wish, situation=_extended(wish.situation, added, None)) for wish in book.preferences
-    )
-    instance = _placed(trouble.instance, added)
+    if added.name in rulebook.forest.names:
+        raise WrongUse(f"the rules know {added.name} already: it cannot be a new feature of theirs")
+    grown = widened(rulebook, (added,))
+    instance = seen_in(grown.forest, trouble.instance)
     born = Event(instance.id, trouble.rule, added.name, "tree", "", added.name, proposal.sentence)
-    grown = replace(book, forest=forest, rules=rules, preferences=wishes)
     rule = grown[trouble.rule]
-    fitted = fit_all(forest, rule, instance, added.name)
+    fitted = fit_all(grown.forest, rule, instance, added.name)
     if not isinstance(fitted, Rule):
-        return Learned(book, (), contradiction(grown, rule, instance, fitted))
-    events = (born, *moves(forest, rule, fitted, instance))
+        return Learned(rulebook, (), contradiction(grown, rule, instance, fitted))
+    events = (born, *moves(grown.forest, rule, fitted, instance))
     proposed = rule.proposed and not instance.speaks_for
     return closed(grown, replace(fitted, quiet=0, proposed=proposed), events)
 
@@ -103,7 +99,7 @@ def _proposal(
         return []
     grown, clearness = found
     said_right, said_wrong = (
-        " or ".join(sorted({str(_leaf(grown, v)) for v in vs})) for vs in (rights, wrongs)
+        " or ".join(sorted({str(leaf_in(grown, {name: v})) for v in vs})) for vs in (rights, wrongs)
     )
     sentence = (
         f"{trouble.rule} was right where {source} was {said_right} and wrong where it was {said_wrong}, "
@@ -114,7 +110,7 @@ def _proposal(
 
 def _intervals(
     name: str, rights: Sequence[float], wrongs: Sequence[float], known: Sequence[float]
-) -> tuple[Tree, float] | None:
+) -> tuple[FeatureTree, float] | None:
     """Intervals with a bound wherever right turns into wrong, and how wide the narrowest gap is [spreads]."""
     ordered = sorted({(value, True) for value in rights} | {(value, False) for value in wrongs})
     runs = [[value for value, _ in run] for _, run in groupby(ordered, key=lambda pair: pair[1])]
@@ -128,7 +124,7 @@ def _intervals(
 
 def _names(
     name: str, rights: Sequence[str], wrongs: Sequence[str], known: Sequence[str]
-) -> tuple[Tree, float] | None:
+) -> tuple[FeatureTree, float] | None:
     """The values met so far, those that were right under one value of their own, those that were wrong
     too."""
     groups = [sorted(set(rights)), sorted(set(wrongs))]
@@ -148,33 +144,3 @@ def round_between(low: float, high: float) -> float:
         if low < bound <= high:
             return bound
     return high
-
-
-def _leaf(grown: Tree, value: Fact | None) -> str | None:
-    """Where a measurement belongs in a proposed tree; `None` where it was not taken."""
-    if value is None or (grown.bounds and (isinstance(value, str) or math.isnan(value))):
-        return None
-    if grown.bounds:
-        return grown.leaf_of(float(value))
-    return value if isinstance(value, str) and value in grown.leaf_place else OTHER
-
-
-def _extended(situation: Situation, added: Tree, value: Fact | None) -> Situation:
-    return Situation((*situation.trees, added.name), (*situation.values, _leaf(added, value)))
-
-
-def _placed(instance: Instance, added: Tree) -> Instance:
-    """The instance with its place in the new tree."""
-    return replace(instance, situation=_extended(instance.situation, added, instance.raw.get(added.source)))
-
-
-def _with_tree(rule: Rule, added: Tree) -> Rule:
-    """The rule over one more tree: nothing is excluded there, and all right values are below the lower
-    mark."""
-    positives = tuple(_placed(positive, added) for positive in rule.positives)
-    marks = Marks(added.name)
-    for positive in positives:
-        value = positive.situation.values[-1]
-        marks = marks if value is None else raised(added, marks, value)
-    negatives = tuple(_placed(negative, added) for negative in rule.negatives)
-    return replace(rule, marks=(*rule.marks, marks), positives=positives, negatives=negatives)

@@ -1,12 +1,16 @@
 """The situation space: an ordered forest of feature trees, and situations as one leaf per tree (§5.4.2.1)."""
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from gaitwright.errors import WrongUse, unknown
-from gaitwright.knowledge.trees import Tree
+from gaitwright.knowledge.memory import Fact
+from gaitwright.knowledge.trees import FeatureTree
 
 MAX_TREES = 64
+OTHER = "other"
+"""The leaf, in a tree made of names met so far, for those that nobody has met yet."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +33,7 @@ class Situation:
 class Forest:
     """The features in which situations differ, in order."""
 
-    trees: tuple[Tree, ...]
+    trees: tuple[FeatureTree, ...]
     names: tuple[str, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -42,7 +46,7 @@ class Forest:
             raise WrongUse(f"the forest has two trees named {twice[0]!r}")
         object.__setattr__(self, "names", names)
 
-    def __getitem__(self, name: str) -> Tree:
+    def __getitem__(self, name: str) -> FeatureTree:
         """The tree of that name. Raises `WrongUse` naming the trees there are."""
         if name not in self.names:
             raise unknown("tree", name, self.names)
@@ -61,11 +65,11 @@ class Forest:
             raise WrongUse(f"a situation has a value in every tree; missing: {', '.join(missing)}")
         return Situation(self.names, tuple(_leaf(tree, values[tree.name]) for tree in self.trees))
 
-    def from_memory(self, memory: Mapping[str, str | float]) -> Situation:
-        """The situation that working memory describes: data that no tree asks for are left aside (C, step
-        b)."""
-        facts = {tree.name: tree.source or tree.name for tree in self.trees}
-        return self.situation({name: memory[fact] for name, fact in facts.items() if fact in memory})
+    def read(self, known: Mapping[str, str | None], facts: Mapping[str, Fact]) -> Situation:
+        """The situation of known leaves; trees that these leave out are read from facts, and are open where
+        no fact tells. What no tree asks for is left aside (C, step b)."""
+        values = (known[tree.name] if tree.name in known else leaf_in(tree, facts) for tree in self.trees)
+        return Situation(self.names, tuple(values))
 
     def leaf_places(self, situation: Situation) -> tuple[int, ...]:
         """The place of each leaf among its tree's leaves, as compiled decisions take it.
@@ -85,7 +89,7 @@ class Forest:
             self.names, tuple(tree.leaves[k] for tree, k in zip(self.trees, places, strict=True))
         )
 
-    def replaced(self, tree: Tree) -> "Forest":
+    def replaced(self, tree: FeatureTree) -> "Forest":
         """The forest with its tree of that name replaced by this one."""
         self[tree.name]
         return Forest(tuple(tree if tree.name == old.name else old for old in self.trees))
@@ -99,7 +103,18 @@ def replace_value(forest: Forest, situation: Situation, tree: str, value: str | 
     return Situation(situation.trees, tuple(values))
 
 
-def _leaf(tree: Tree, value: str | float) -> str:
+def leaf_in(tree: FeatureTree, facts: Mapping[str, Fact]) -> str | None:
+    """The leaf that the fact which a tree is read from falls into; `None` where it was not measured, or is
+    none that the tree could place."""
+    fact = facts.get(tree.source or tree.name)
+    if tree.bounds:
+        return None if fact is None or isinstance(fact, str) or math.isnan(fact) else tree.leaf_of(fact)
+    if fact is None or (isinstance(fact, str) and tree.is_leaf(fact)):
+        return fact
+    return OTHER if OTHER in tree.leaf_place else None
+
+
+def _leaf(tree: FeatureTree, value: str | float) -> str:
     """A leaf of the tree, from its name or a number. Raises `WrongUse` naming the leaves there are."""
     if not isinstance(value, str):
         return tree.leaf_of(float(value))

@@ -2,7 +2,7 @@
 
 from gaitwright.knowledge.forest import Forest, Situation
 from gaitwright.knowledge.rules import Marks
-from gaitwright.knowledge.trees import Tree
+from gaitwright.knowledge.trees import FeatureTree
 
 
 def generalise(forest: Forest, marks: tuple[Marks, ...], situation: Situation) -> tuple[Marks, ...]:
@@ -17,7 +17,7 @@ def generalise(forest: Forest, marks: tuple[Marks, ...], situation: Situation) -
     )
 
 
-def raised(tree: Tree, marks: Marks, value: str) -> Marks:
+def raised(tree: FeatureTree, marks: Marks, value: str) -> Marks:
     """One tree's marks, the lower raised just enough to hold the value; the first value is a lower mark
     itself."""
     if marks.lower is None:

@@ -21,7 +21,7 @@ from gaitwright.knowledge.rules import (
     Rule,
     Rulebook,
 )
-from gaitwright.knowledge.trees import MAX_LABEL, MAX_LEAVES, Tree
+from gaitwright.knowledge.trees import MAX_LABEL, MAX_LEAVES, FeatureTree
 
 FORMAT = 1
 MAX_BYTES = 100_000_000
@@ -107,9 +107,9 @@ class BookEntry(Strict, frozen=True):
     lessons: Count = 0
 
 
-def to_plain(book: Rulebook) -> dict[str, Any]:
+def to_plain(rulebook: Rulebook) -> dict[str, Any]:
     """The rulebook as dicts, tuples, numbers and text: what JSON can hold."""
-    return msgspec.to_builtins(_entry(book))
+    return msgspec.to_builtins(_entry(rulebook))
 
 
 def from_plain(plain: Any, source: str = "rulebook") -> Rulebook:
@@ -121,9 +121,9 @@ def from_plain(plain: Any, source: str = "rulebook") -> Rulebook:
     return _checked(entry, source)
 
 
-def dumps(book: Rulebook) -> bytes:
+def dumps(rulebook: Rulebook) -> bytes:
     """The rulebook as JSON."""
-    return msgspec.json.encode(_entry(book))
+    return msgspec.json.encode(_entry(rulebook))
 
 
 def loads(content: bytes, source: str = "rulebook") -> Rulebook:
@@ -142,29 +142,32 @@ def loads(content: bytes, source: str = "rulebook") -> Rulebook:
 def _checked(entry: BookEntry, source: str) -> Rulebook:
     """The rulebook of an entry, if it is one that learning could have made."""
     try:
-        book = _book(entry)
-        faults = audit(book)
+        rulebook = _book(entry)
+        faults = audit(rulebook)
     except WrongUse as error:
         raise BadFile(f"{source}: {error}") from None
     if faults:
         raise BadFile(f"{source}: {faults[0]}")
-    return book
+    return rulebook
 
 
-def _entry(book: Rulebook) -> BookEntry:
+def _entry(rulebook: Rulebook) -> BookEntry:
     wishes = tuple(
-        WishEntry(wish.better, wish.worse, wish.situation.values, wish.instance) for wish in book.preferences
+        WishEntry(wish.better, wish.worse, wish.situation.values, wish.instance)
+        for wish in rulebook.preferences
     )
     return BookEntry(
         FORMAT,
         tuple(
             TreeEntry(t.name, t.values, t.parents, t.about, t.unit, t.bounds, t.source)
-            for t in book.forest.trees
+            for t in rulebook.forest.trees
         ),
-        tuple(_rule_entry(rule) for rule in book.rules),
+        tuple(_rule_entry(rule) for rule in rulebook.rules),
         wishes,
-        tuple(EventEntry(e.instance, e.rule, e.tree, e.mark, e.before, e.after, e.why) for e in book.events),
-        book.lessons,
+        tuple(
+            EventEntry(e.instance, e.rule, e.tree, e.mark, e.before, e.after, e.why) for e in rulebook.events
+        ),
+        rulebook.lessons,
     )
 
 
@@ -190,9 +193,11 @@ def _instance_entry(i: Instance) -> InstanceEntry:
 def _book(entry: BookEntry) -> Rulebook:
     """Values from an entry. Raises `WrongUse` for whatever does not fit together."""
     forest = Forest(
-        tuple(Tree(t.name, t.values, t.parents, t.about, t.unit, t.bounds, t.source) for t in entry.trees)
+        tuple(
+            FeatureTree(t.name, t.values, t.parents, t.about, t.unit, t.bounds, t.source) for t in entry.trees
+        )
     )
-    book = Rulebook(
+    rulebook = Rulebook(
         forest,
         tuple(_rule(forest, rule) for rule in entry.rules),
         tuple(
@@ -202,10 +207,10 @@ def _book(entry: BookEntry) -> Rulebook:
         tuple(Event(e.instance, e.rule, e.tree, e.mark, e.before, e.after, e.why) for e in entry.events),
         entry.lessons,
     )
-    for wish in book.preferences:
-        book.place(wish.better)
-        book.place(wish.worse)
-    return book
+    for wish in rulebook.preferences:
+        rulebook.place(wish.better)
+        rulebook.place(wish.worse)
+    return rulebook
 
 
 def _rule(forest: Forest, entry: RuleEntry) -> Rule:

@@ -51,48 +51,54 @@ class Learned:
     """The rulebook after a lesson, what moved, and the contradiction where there was one (then nothing
     moved)."""
 
-    book: Rulebook
+    rulebook: Rulebook
     events: tuple[Event, ...] = ()
     trouble: Inconsistency | None = None
 
 
-def learn(book: Rulebook, lesson: Lesson) -> Learned:
+def learn(rulebook: Rulebook, lesson: Lesson) -> Learned:
     """One lesson for one rule. Raises `WrongUse` for a rule that does not exist and comes without an
     action."""
-    if lesson.situation.trees != book.forest.names:
+    if lesson.situation.trees != rulebook.forest.names:
         raise WrongUse(
-            f"the lesson is about {list(lesson.situation.trees)}, the rules about {list(book.forest.names)}"
+            f"the lesson is about {list(lesson.situation.trees)}, "
+            f"the rules about {list(rulebook.forest.names)}"
         )
-    lesson_id = lesson.id or f"lesson {book.lessons + 1}"
+    lesson_id = lesson.id or f"lesson {rulebook.lessons + 1}"
     instance = Instance(lesson_id, lesson.kind, lesson.situation, lesson.raw, lesson.note)
-    blame = book.forest[lesson.blame].name if lesson.blame else ""
-    made, events = with_rule_for(book, lesson.rule, lesson.action, instance)
+    blame = rulebook.forest[lesson.blame].name if lesson.blame else ""
+    made, events = with_rule_for(rulebook, lesson.rule, lesson.action, instance)
     rule = made[lesson.rule]
-    fitted = fit_all(book.forest, rule, instance, blame)
+    fitted = fit_all(rulebook.forest, rule, instance, blame)
     if not isinstance(fitted, Rule):
-        return Learned(book, (), contradiction(book, rule, instance, fitted))
-    moved = moves(book.forest, rule, fitted, instance)
+        return Learned(rulebook, (), contradiction(rulebook, rule, instance, fitted))
+    moved = moves(rulebook.forest, rule, fitted, instance)
     quiet = 0 if moved else rule.quiet + 1
     fitted = replace(fitted, quiet=quiet, proposed=rule.proposed and not instance.speaks_for)
     return closed(made, fitted, events + moved)
 
 
-def closed(book: Rulebook, rule: Rule, events: tuple[Event, ...]) -> Learned:
+def closed(rulebook: Rulebook, rule: Rule, events: tuple[Event, ...]) -> Learned:
     """The rulebook with the changed rule, one lesson older."""
-    told = (*book.events, *events)
-    return Learned(replace(book, rules=book.with_rule(rule), events=told, lessons=book.lessons + 1), events)
+    after = replace(
+        rulebook,
+        rules=rulebook.with_rule(rule),
+        events=(*rulebook.events, *events),
+        lessons=rulebook.lessons + 1,
+    )
+    return Learned(after, events)
 
 
 def with_rule_for(
-    book: Rulebook, name: str, action: Action | None, instance: Instance
+    rulebook: Rulebook, name: str, action: Action | None, instance: Instance
 ) -> tuple[Rulebook, tuple[Event, ...]]:
     """The rulebook with a rule of that name: where it is missing and an action is given, an empty shell,
     last."""
-    if action is None or any(rule.name == name for rule in book.rules):
-        return book, ()
-    shell = empty_rule(book.forest, name, action)
+    if action is None or any(rule.name == name for rule in rulebook.rules):
+        return rulebook, ()
+    shell = empty_rule(rulebook.forest, name, action)
     born = Event(instance.id, name, "", "rule", "", name, f"{name} is new: nothing in the rulebook did this")
-    return replace(book, rules=(*book.rules, shell)), (born,)
+    return replace(rulebook, rules=(*rulebook.rules, shell)), (born,)
 
 
 def moves(forest: Forest, before: Rule, after: Rule, instance: Instance) -> tuple[Event, ...]:
@@ -128,22 +134,25 @@ def _upper_reason(forest: Forest, rule: Rule, old: Marks, new: Marks, instance: 
 
 
 def contradiction(
-    book: Rulebook, rule: Rule, instance: Instance, inside: Sequence[Instance]
+    rulebook: Rulebook, rule: Rule, instance: Instance, inside: Sequence[Instance]
 ) -> Inconsistency:
     """The inconsistency in words."""
     rights = [instance] if instance.speaks_for else list(rule.positives)
     same = any(wrong.situation == right.situation for wrong in inside for right in rights)
-    wrongs = ", ".join(f"{wrong.id} ({values_text(book.forest, wrong.situation)})" for wrong in inside[:3])
+    wrongs = ", ".join(
+        f"{wrong.id} ({values_text(rulebook.forest, wrong.situation)})" for wrong in inside[:3]
+    )
     if same:
         twin = next(wrong for wrong in inside if any(wrong.situation == right.situation for right in rights))
         sentence = (
             f"{rule.name} is right and wrong in one and the same situation "
-            f"({values_text(book.forest, twin.situation)}): a feature is missing that tells the two apart"
+            f"({values_text(rulebook.forest, twin.situation)}): a feature is missing that tells the two apart"
         )
     elif instance.speaks_for:
         sentence = (
-            f"{rule.name} cannot be right at {instance.id} ({values_text(book.forest, instance.situation)}): "
-            f"values that hold it and the earlier right situations hold the wrong {wrongs} too"
+            f"{rule.name} cannot be right at {instance.id} "
+            f"({values_text(rulebook.forest, instance.situation)}): values that hold it "
+            f"and the earlier right situations hold the wrong {wrongs} too"
         )
     else:
         sentence = (
@@ -158,18 +167,18 @@ def values_text(forest: Forest, situation: Situation) -> str:
     return ", ".join(f"{tree} {value}" for tree, value in situation.items() if value is not None)
 
 
-def audit(book: Rulebook) -> tuple[str, ...]:
+def audit(rulebook: Rulebook) -> tuple[str, ...]:
     """What contradicts the guarantees, in sentences; none in any rulebook that learning made."""
     faults = []
-    for rule in book.rules:
-        for tree, marks in zip(book.forest.trees, rule.marks, strict=True):
+    for rule in rulebook.rules:
+        for tree, marks in zip(rulebook.forest.trees, rule.marks, strict=True):
             if marks.lower is not None and not tree.is_below(marks.lower, marks.upper):
                 faults.append(
                     f"{rule.name}: in {tree.name} the lower mark {marks.lower!r} is not below the upper"
                 )
-        faults += _instance_faults(book.forest, rule)
-    order = {rule.name: k for k, rule in enumerate(book.rules)}
-    for wish in book.preferences:
+        faults += _instance_faults(rulebook.forest, rule)
+    order = {rule.name: k for k, rule in enumerate(rulebook.rules)}
+    for wish in rulebook.preferences:
         if order[wish.better] > order[wish.worse]:
             faults.append(f"{wish.better} should come before {wish.worse}, as {wish.instance} taught")
     return tuple(faults)

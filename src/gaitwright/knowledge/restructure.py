@@ -10,7 +10,7 @@ from gaitwright.knowledge.forest import Forest
 from gaitwright.knowledge.mark_fitting import refit, tightened, with_instance
 from gaitwright.knowledge.modifier import Inconsistency
 from gaitwright.knowledge.rules import Event, Instance, Preference, Rule, Rulebook
-from gaitwright.knowledge.trees import Tree, nest, regrouped, run_label
+from gaitwright.knowledge.trees import FeatureTree, nest, regrouped, run_label
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,7 +21,7 @@ class Group:
     keeps_out: int = 0
     keeps_out_of_all: int = 0
     lost: int = 0
-    tree: Tree | None = None
+    tree: FeatureTree | None = None
     label: str = ""
 
     def on(self, blame: str) -> bool:
@@ -36,22 +36,22 @@ class Mended:
     (`features.propose_feature`).
     """
 
-    book: Rulebook
+    rulebook: Rulebook
     how: Literal["ordered", "regrouped", "split", "none"]
     sentence: str
     events: tuple[Event, ...] = ()
 
 
-def regroup(book: Rulebook, trouble: Inconsistency, blame: str = "") -> Mended | None:
+def regroup(rulebook: Rulebook, trouble: Inconsistency, blame: str = "") -> Mended | None:
     """The rulebook with trees in which the right values of the rule have a value of their own (fig. 5.6).
 
     The marks of all rules stay what they were as sets of leaves; `None` where that, or the contradiction,
     leaves no room. Takes one tree after another, each time the one that a teacher blames or that keeps out
     most of what is inside, then most of all that was wrong, then costs the fewest old groups.
     """
-    rule = with_instance(book[trouble.rule], trouble.instance)
-    others = [other for other in book.rules if other.name != rule.name]
-    forest, grown = book.forest, []
+    rule = with_instance(rulebook[trouble.rule], trouble.instance)
+    others = [other for other in rulebook.rules if other.name != rule.name]
+    forest, grown = rulebook.forest, []
     while not isinstance(fitted := refit(forest, tightened(forest, rule)), Rule):
         groups = [_new_group(forest, place, rule, others, fitted) for place in range(len(forest.trees))]
         best = max(groups, key=lambda g: (g.on(blame), g.keeps_out, g.keeps_out_of_all, -g.lost))
@@ -59,17 +59,17 @@ def regroup(book: Rulebook, trouble: Inconsistency, blame: str = "") -> Mended |
             return None
         forest = forest.replaced(best.tree)
         grown.append(best)
-    return _regrouped_book(book, trouble, forest, fitted, grown)
+    return _regrouped_book(rulebook, trouble, forest, fitted, grown)
 
 
-def split(book: Rulebook, trouble: Inconsistency) -> Mended:
+def split(rulebook: Rulebook, trouble: Inconsistency) -> Mended:
     """The rulebook with the rule as several of the same action, each holding some of its right situations.
 
     Each right situation joins the part it widens least without taking in a wrong one; every part keeps out
     all wrong ones. That fails only where right and wrong are the very same situation.
     """
-    rule = with_instance(book[trouble.rule], trouble.instance)
-    forest = book.forest
+    rule = with_instance(rulebook[trouble.rule], trouble.instance)
+    forest = rulebook.forest
     parts: list[Rule] = []
     for positive in rule.positives:
         grown = [(k, _joined(forest, part, positive)) for k, part in enumerate(parts)]
@@ -80,20 +80,25 @@ def split(book: Rulebook, trouble: Inconsistency) -> Mended:
             continue
         alone = _joined(forest, replace(rule, positives=()), positive)
         if alone is None:
-            return Mended(book, "none", trouble.sentence)
+            return Mended(rulebook, "none", trouble.sentence)
         parts.append(alone)
-    names = _part_names(book, rule.name, len(parts))
+    names = _part_names(rulebook, rule.name, len(parts))
     quiet = [replace(part, name=name, quiet=0) for part, name in zip(parts, names, strict=True)]
-    here = book.place(rule.name)
-    rules = (*book.rules[:here], *quiet, *book.rules[here + 1 :])
+    here = rulebook.place(rule.name)
+    rules = (*rulebook.rules[:here], *quiet, *rulebook.rules[here + 1 :])
     sentence = (
         f"{rule.name} has become {len(parts)} rules of the same action, {' and '.join(names)}: "
         f"what it is right at does not go together under one value per tree ({trouble.sentence})"
     )
     born = tuple(Event(trouble.instance.id, name, "", "rule", rule.name, name, sentence) for name in names)
-    wishes = tuple(part for wish in book.preferences for part in _shared_out(wish, rule.name, quiet))
-    told = (*book.events, *born)
-    new = replace(book, rules=rules, preferences=wishes, events=told, lessons=book.lessons + 1)
+    wishes = tuple(part for wish in rulebook.preferences for part in _shared_out(wish, rule.name, quiet))
+    new = replace(
+        rulebook,
+        rules=rules,
+        preferences=wishes,
+        events=(*rulebook.events, *born),
+        lessons=rulebook.lessons + 1,
+    )
     return Mended(new, "split", sentence, born)
 
 
@@ -136,7 +141,7 @@ def _new_group(
     return Group(keeps_out, of_all, len(old) - len(kept), grown, label)
 
 
-def _group_label(tree: Tree, bits: int) -> str:
+def _group_label(tree: FeatureTree, bits: int) -> str:
     """What a group of leaves is called: its members, or the ends of a run; told apart from what there is."""
     leaves = [leaf for k, leaf in enumerate(tree.leaves) if bits >> k & 1]
     label = run_label(leaves) if tree.bounds else " or ".join(leaves)
@@ -148,14 +153,14 @@ def _group_label(tree: Tree, bits: int) -> str:
 
 
 def _regrouped_book(
-    book: Rulebook, trouble: Inconsistency, forest: Forest, fitted: Rule, grown: Sequence[Group]
+    rulebook: Rulebook, trouble: Inconsistency, forest: Forest, fitted: Rule, grown: Sequence[Group]
 ) -> Mended:
     """The rulebook over the new trees: all other rules as they were, their marks' values all still there."""
-    told = " and ".join(
+    condition = " and ".join(
         f"{group.tree.name} now has the value {group.label!r}" for group in grown if group.tree
     )
-    sentence = f"{told}, so that {trouble.rule} can be right there and nowhere else ({trouble.sentence})"
-    before = book[trouble.rule]
+    sentence = f"{condition}, so that {trouble.rule} can be right there and nowhere else ({trouble.sentence})"
+    before = rulebook[trouble.rule]
     events = [
         Event(trouble.instance.id, trouble.rule, group.tree.name, "tree", "", group.label, sentence)
         for group in grown
@@ -173,9 +178,9 @@ def _regrouped_book(
                     Event(trouble.instance.id, before.name, old.tree, mark, was or "", now or "", why)
                 )
     proposed = before.proposed and not trouble.instance.speaks_for
-    rules = book.with_rule(replace(fitted, quiet=0, proposed=proposed))
-    told_all = (*book.events, *events)
-    new = replace(book, forest=forest, rules=rules, events=told_all, lessons=book.lessons + 1)
+    rules = rulebook.with_rule(replace(fitted, quiet=0, proposed=proposed))
+    told_all = (*rulebook.events, *events)
+    new = replace(rulebook, forest=forest, rules=rules, events=told_all, lessons=rulebook.lessons + 1)
     return Mended(new, "regrouped", sentence, tuple(events))
 
 
@@ -203,9 +208,9 @@ def _size(forest: Forest, part: Rule) -> float:
     )
 
 
-def _part_names(book: Rulebook, name: str, count: int) -> list[str]:
+def _part_names(rulebook: Rulebook, name: str, count: int) -> list[str]:
     """Names for the parts of a rule: its own, then the first free numbers behind it."""
-    taken = {rule.name for rule in book.rules}
+    taken = {rule.name for rule in rulebook.rules}
     names, number = [name], 2
     while len(names) < count:
         if f"{name} {number}" not in taken:

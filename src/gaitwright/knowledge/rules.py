@@ -10,7 +10,7 @@ from typing import Literal
 from gaitwright.errors import WrongUse, unknown
 from gaitwright.knowledge.forest import Forest, Situation
 from gaitwright.knowledge.memory import Action, Fact
-from gaitwright.knowledge.trees import ROOT, Tree
+from gaitwright.knowledge.trees import ROOT, FeatureTree
 
 MAX_RULES = 1024
 QUIET = 5
@@ -169,7 +169,7 @@ def status(rule: Rule) -> Status:
     return "stabilised" if rule.quiet >= QUIET else "shell"
 
 
-def covers(tree: Tree, mark: str | None, value: str | None) -> bool:
+def covers(tree: FeatureTree, mark: str | None, value: str | None) -> bool:
     """Whether the value is below the mark; a value that was not noted could be, below a mark nothing set
     no one is."""
     if mark is None:

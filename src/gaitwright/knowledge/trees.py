@@ -24,7 +24,7 @@ Shape = Mapping[str, Any] | Sequence[Any]
 
 
 @dataclass(frozen=True, slots=True)
-class Tree:
+class FeatureTree:
     """One feature: `values` in order, `parents` the place each hangs below (−1 for the root).
 
     Values stand in order, each branch to its end before the next.
@@ -66,15 +66,6 @@ class Tree:
 
     def is_leaf(self, value: str) -> bool:
         return value in self.leaf_place
-
-    def parent(self, value: str) -> str | None:
-        """The value it hangs below; `None` for the root."""
-        above = self.parents[self.at(value)]
-        return None if above < 0 else self.values[above]
-
-    def children(self, value: str) -> tuple[str, ...]:
-        here = self.at(value)
-        return tuple(child for child, above in zip(self.values, self.parents, strict=True) if above == here)
 
     def path(self, value: str) -> tuple[str, ...]:
         """From the root down to the value, both included."""
@@ -133,17 +124,17 @@ class Tree:
         return bits
 
 
-def tree(name: str, shape: Shape, about: str = "") -> Tree:
+def tree(name: str, shape: Shape, about: str = "") -> FeatureTree:
     """A tree from nested values in order: `{"even": ("flat", "slippery"), "stairs": ()}`; a bare str is a
     leaf."""
     values, parents = [ROOT], [-1]
     _hang(name, shape, 0, values, parents)
-    return Tree(name, tuple(values), tuple(parents), about)
+    return FeatureTree(name, tuple(values), tuple(parents), about)
 
 
 def interval_tree(
     name: str, unit: str, bounds: Sequence[float], labels: Sequence[str] | Mapping = (), about: str = ""
-) -> Tree:
+) -> FeatureTree:
     """Half-open intervals of a number between ascending `bounds`, one more than these.
 
     Labels nested as for `tree` give the grouping; a flat row of them (or none: then they say the bounds) is
@@ -159,10 +150,10 @@ def interval_tree(
                 f"tree {name}: {len(cuts)} bounds make {len(cuts) + 1} intervals, got {len(row)} labels"
             )
         grown = tree(name, _halved(row))
-    return Tree(name, grown.values, grown.parents, about, unit, cuts)
+    return FeatureTree(name, grown.values, grown.parents, about, unit, cuts)
 
 
-def regrouped(old: Tree, groups: Mapping[int, str]) -> Tree:
+def regrouped(old: FeatureTree, groups: Mapping[int, str]) -> FeatureTree:
     """The same leaves under other inner values: `groups` maps leaf sets (bits of `old`) to labels.
 
     The sets must be nested or apart (see `nest`); groups of one leaf or of all are there anyway.
@@ -179,7 +170,7 @@ def regrouped(old: Tree, groups: Mapping[int, str]) -> Tree:
         values.append(names[bits])
         parents.append(open_sets[-1][1] if open_sets else -1)
         open_sets.append((bits, len(values) - 1))
-    return Tree(old.name, tuple(values), tuple(parents), old.about, old.unit, old.bounds, old.source)
+    return FeatureTree(old.name, tuple(values), tuple(parents), old.about, old.unit, old.bounds, old.source)
 
 
 def nest(sets: Sequence[int]) -> bool:
@@ -252,7 +243,7 @@ def _leaf_sets(values: Sequence[str], parents: Sequence[int]) -> tuple[tuple[int
     return tuple(sets), tuple(values[leaf] for leaf in leaves)
 
 
-def _check_labels(t: Tree) -> None:
+def _check_labels(t: FeatureTree) -> None:
     """Raises `WrongUse` for labels that no person could tell apart or read."""
     for label in (t.name, *t.values):
         if not label.strip() or len(label) > MAX_LABEL or not label.isprintable():
@@ -266,7 +257,7 @@ def _check_labels(t: Tree) -> None:
         seen.add(value)
 
 
-def _check_parents(t: Tree) -> None:
+def _check_parents(t: FeatureTree) -> None:
     """Raises `WrongUse` where the values do not stand in order, each branch to its end before the next."""
     if len(t.parents) != len(t.values) or not t.values or t.values[0] != ROOT or t.parents[0] != -1:
         raise WrongUse(f"tree {t.name} must begin with {ROOT!r} and give each other value its parent")
@@ -279,7 +270,7 @@ def _check_parents(t: Tree) -> None:
             raise WrongUse(f"tree {t.name} is deeper than {MAX_DEPTH}")
 
 
-def _check_leaves(t: Tree, leaves: tuple[str, ...]) -> None:
+def _check_leaves(t: FeatureTree, leaves: tuple[str, ...]) -> None:
     """Raises `WrongUse` for a value that has one value below it, for too many leaves, or bounds that do
     not fit."""
     for k, value in enumerate(t.values):

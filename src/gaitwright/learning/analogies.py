@@ -46,19 +46,19 @@ ANALOGIES = (
 )
 
 
-def proposals(book: Rulebook) -> tuple[Learned, ...]:
+def proposals(rulebook: Rulebook) -> tuple[Learned, ...]:
     """The rules that could be had by analogy and are not there yet, one after the other."""
     made: list[Learned] = []
     for analogy in ANALOGIES:
-        names = {rule.name for rule in book.rules}
-        if analogy.skill not in names or analogy.new in {rule.action.skill for rule in book.rules}:
+        names = {rule.name for rule in rulebook.rules}
+        if analogy.skill not in names or analogy.new in {rule.action.skill for rule in rulebook.rules}:
             continue
 
         def action(old: Action, new: str = analogy.new) -> Action:
             return replace(old, skill=new)
 
-        learned = mirrored(book, analogy.skill, analogy.new, action, analogy.values)
+        learned = mirrored(rulebook, analogy.skill, analogy.new, action, analogy.values)
         if learned.trouble is None:
             made.append(learned)
-            book = learned.book
+            rulebook = learned.rulebook
     return tuple(made)

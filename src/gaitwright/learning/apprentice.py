@@ -11,9 +11,10 @@ from gaitwright.knowledge.modifier import Inconsistency, Learned, Lesson, learn
 from gaitwright.knowledge.repair import mend
 from gaitwright.knowledge.restructure import Mended
 from gaitwright.knowledge.rules import Event, Rulebook
-from gaitwright.learning.critic import Moment, Step, criticise
+from gaitwright.learning.critic import DecisionPoint, TraceStep, criticise
 from gaitwright.learning.teacher import Correction, Teacher
-from gaitwright.skills.rule_chooser import DOING, holds
+from gaitwright.skills.book_trees import in_trees_of
+from gaitwright.skills.rule_chooser import DOING, goes_on
 from gaitwright.skills.situation import READ_FROM
 
 MOST_REPAIRS = 8
@@ -23,7 +24,7 @@ MOST_RECALLS = 3
 
 
 @dataclass(frozen=True, slots=True)
-class Taken:
+class LearningStep:
     """One step of a rulebook, as a ledger keeps it."""
 
     how: Literal["taught", "learned", "mended", "edited"]
@@ -36,18 +37,18 @@ class Taken:
 class Studied:
     """A rulebook after lessons: how many there were, what moved, and contradictions nobody could mend."""
 
-    book: Rulebook
+    rulebook: Rulebook
     lessons: int = 0
     corrections: int = 0
     events: tuple[Event, ...] = ()
     open: tuple[Inconsistency, ...] = ()
-    steps: tuple[Taken, ...] = ()
+    steps: tuple[LearningStep, ...] = ()
     """Every step from the rulebook before to this one, in order."""
 
     def then(self, other: "Studied") -> "Studied":
         """Both, one after the other."""
         return Studied(
-            other.book,
+            other.rulebook,
             self.lessons + other.lessons,
             self.corrections + other.corrections,
             self.events + other.events,
@@ -56,93 +57,86 @@ class Studied:
         )
 
 
-def step_of(book: Rulebook, moment: Moment) -> Step:
+def step_of(rulebook: Rulebook, moment: DecisionPoint) -> TraceStep:
     """What the rules do at a moment (algorithm C): a rule whose condition does not hold yet goes on."""
     doing = str(moment.memory.get(DOING, ""))
-    for rule in book.rules:
-        if rule.name == doing and goes_on(rule.action.until, moment):
-            return Step(moment, rule.action, doing)
-    moment = placed(book, moment)
-    name = consult(book, moment.situation).rule
-    return Step(moment, book[name].action if name else None, name or "")
+    for rule in rulebook.rules:
+        if rule.name == doing and goes_on(rule.action, moment.situation):
+            return TraceStep(moment, rule.action, doing)
+    moment = in_own_trees(rulebook, moment)
+    name = consult(rulebook, moment.situation).rule
+    return TraceStep(moment, rulebook[name].action if name else None, name or "")
 
 
-def goes_on(until: str, moment: Moment) -> bool:
-    """Whether what was begun goes on at a moment."""
-    under_way = moment.situation["goal"] not in ("arrived", "no goal")
-    return bool(until) and under_way and not holds(until, moment.situation)
-
-
-def study(book: Rulebook, teacher: Teacher, moments: Sequence[Moment], passes: int = 3) -> Studied:
+def study(rulebook: Rulebook, teacher: Teacher, moments: Sequence[DecisionPoint], passes: int = 3) -> Studied:
     """The rulebook after a trip of the teacher's was watched: the critic's lessons, one difference at a time.
 
     Each pass goes through the trip once: what was right is confirmed, each first difference corrected.
     """
-    studied = Studied(book)
+    studied = Studied(rulebook)
     moments = [moment for moment in moments if teacher.ideal(moment.raw).clear]
     for _ in range(passes):
         before = studied.corrections
-        ideal = [Step(moment, teacher.ideal(moment.raw).action) for moment in moments]
+        ideal = [TraceStep(moment, teacher.ideal(moment.raw).action) for moment in moments]
         start = 0
         while start < len(moments):
-            done = [step_of(studied.book, moment) for moment in moments[start:]]
+            done = [step_of(studied.rulebook, moment) for moment in moments[start:]]
             found = criticise(ideal[start:], done)
             for step in found.right:
-                studied = studied.then(confirmed(studied.book, step))
+                studied = studied.then(confirmed(studied.rulebook, step))
             if found.wrong is None:
                 break
             correction = teacher.judge(found.wrong.action, found.wrong.moment.raw)
-            if correction is not None and not held(found.wrong):
-                studied = studied.then(corrected(studied.book, found.wrong.moment, correction))
+            if correction is not None and not only_goes_on(found.wrong):
+                studied = studied.then(corrected(studied.rulebook, found.wrong.moment, correction))
             start += found.at + 1
         if studied.corrections == before:
             break
     return studied
 
 
-def held(step: Step) -> bool:
+def only_goes_on(step: TraceStep) -> bool:
     """Whether a moment tells nothing of the trees, because what was begun before went on."""
-    return bool(step.action and step.rule and step.moment.memory.get(DOING) == step.rule) and goes_on(
-        step.action.until if step.action else "", step.moment
-    )
+    begun = bool(step.rule) and step.moment.memory.get(DOING) == step.rule
+    return begun and goes_on(step.action, step.moment.situation)
 
 
-def confirmed(book: Rulebook, step: Step) -> Studied:
+def confirmed(rulebook: Rulebook, step: TraceStep) -> Studied:
     """The rulebook with a positive instance for the rule that was right."""
-    if not step.rule or held(step):
-        return Studied(book)
-    moment = placed(book, step.moment)
+    if not step.rule or only_goes_on(step):
+        return Studied(rulebook)
+    moment = in_own_trees(rulebook, step.moment)
     lesson = Lesson("positive", step.rule, moment.situation, moment.id, "was right", moment.raw)
-    learned = learn(book, lesson)
-    return Studied(learned.book, 1, 0, learned.events, steps=(Taken("learned", lesson, learned),))
+    learned = learn(rulebook, lesson)
+    return Studied(learned.rulebook, 1, 0, learned.events, steps=(LearningStep("learned", lesson, learned),))
 
 
-def outranked(book: Rulebook, teacher: Teacher, moment: Moment) -> Studied:
+def outranked(rulebook: Rulebook, teacher: Teacher, moment: DecisionPoint) -> Studied:
     """The rulebook in which rules that could have fired too, but come later, keep out of this moment.
 
     What the teacher did there says that their actions were wrong. Where their marks cannot keep out, the
     order of the rules goes on doing it.
     """
-    moment = placed(book, moment)
-    right, studied = teacher.ideal(moment.raw).action, Studied(book)
-    for name in consult(book, moment.situation).conflict[1:]:
-        rule = book[name]
+    moment = in_own_trees(rulebook, moment)
+    right, studied = teacher.ideal(moment.raw).action, Studied(rulebook)
+    for name in consult(rulebook, moment.situation).conflict[1:]:
+        rule = rulebook[name]
         correction = teacher.judge(rule.action, moment.raw) if rule.action != right else None
         if correction is None:
             continue
-        blame = blame_of(book, correction)
+        blame = blame_of(rulebook, correction)
         lesson = Lesson("commission", name, moment.situation, moment.id, "was outranked", moment.raw, blame)
-        learned = learn(studied.book, lesson)
+        learned = learn(studied.rulebook, lesson)
         if learned.trouble is None:
-            taken = (Taken("learned", lesson, learned),)
-            studied = studied.then(Studied(learned.book, 1, 0, learned.events, steps=taken))
+            taken = (LearningStep("learned", lesson, learned),)
+            studied = studied.then(Studied(learned.rulebook, 1, 0, learned.events, steps=taken))
     return studied
 
 
-def corrected(book: Rulebook, moment: Moment, correction: Correction) -> Studied:
+def corrected(rulebook: Rulebook, moment: DecisionPoint, correction: Correction) -> Studied:
     """The rulebook after one correction; what was right before and no longer is, is taught again from
     memory."""
-    shown, moment = correction.right, placed(book, moment)
+    shown, moment = correction.right, in_own_trees(rulebook, moment)
     lesson = Lesson(
         "omission",
         shown.rule,
@@ -150,10 +144,10 @@ def corrected(book: Rulebook, moment: Moment, correction: Correction) -> Studied
         moment.id,
         shown.because,
         moment.raw,
-        blame_of(book, correction),
+        blame_of(rulebook, correction),
         shown.action,
     )
-    after, trouble, steps = taught(book, lesson, correction.about)
+    after, trouble, steps = taught(rulebook, lesson, correction.about)
     for _ in range(MOST_RECALLS):
         forgotten = relapses(after)
         if trouble is not None or not forgotten:
@@ -163,65 +157,58 @@ def corrected(book: Rulebook, moment: Moment, correction: Correction) -> Studied
                 after, _, more = taught(after, old, "")
                 steps += more
         if step_of(after, moment).action != shown.action:
-            again = replace(lesson, situation=placed(after, moment).situation)
+            again = replace(lesson, situation=in_own_trees(after, moment).situation)
             after, trouble, more = taught(after, again, "")
             steps += more
-    events = after.events[len(book.events) :]
+    events = after.events[len(rulebook.events) :]
     return Studied(after, 1, 1, events, (trouble,) if trouble is not None else (), steps)
 
 
 def taught(
-    book: Rulebook, lesson: Lesson, about: str
-) -> tuple[Rulebook, Inconsistency | None, tuple[Taken, ...]]:
+    rulebook: Rulebook, lesson: Lesson, about: str
+) -> tuple[Rulebook, Inconsistency | None, tuple[LearningStep, ...]]:
     """The rulebook after one lesson, mended wherever it contradicts itself; the contradiction if nothing
     mends it; and the steps that were taken. `about` is the number that a new feature may be made from."""
-    steps: tuple[Taken, ...] = ()
+    steps: tuple[LearningStep, ...] = ()
     for _ in range(MOST_REPAIRS):
-        learned = teach(book, lesson)
-        book, steps = learned.book, (*steps, Taken("taught", lesson, learned))
+        learned = teach(rulebook, lesson)
+        rulebook, steps = learned.rulebook, (*steps, LearningStep("taught", lesson, learned))
         if learned.trouble is None:
-            return book, None, steps
-        mended = mend(book, learned.trouble, lesson.blame)
+            return rulebook, None, steps
+        mended = mend(rulebook, learned.trouble, lesson.blame)
         if mended.how != "none":
-            book, steps = mended.book, (*steps, Taken("mended", lesson, mended))
+            rulebook, steps = mended.rulebook, (*steps, LearningStep("mended", lesson, mended))
             continue
-        grown = with_feature(book, learned.trouble, about)
+        grown = with_feature(rulebook, learned.trouble, about)
         if grown is None:
-            return book, learned.trouble, steps
-        book, steps = grown.book, (*steps, Taken("edited", lesson, grown))
-        value = lesson.raw.get(book.forest.trees[-1].source)
+            return rulebook, learned.trouble, steps
+        rulebook, steps = grown.rulebook, (*steps, LearningStep("edited", lesson, grown))
+        value = lesson.raw.get(rulebook.forest.trees[-1].source)
         if value is None:
-            return book, None, steps
-        leaves = {**dict(lesson.situation.items()), book.forest.names[-1]: value}
-        lesson = replace(lesson, situation=book.forest.situation(leaves))  # pyright: ignore[reportArgumentType]
-    return book, None, steps
+            return rulebook, None, steps
+        leaves = {**dict(lesson.situation.items()), rulebook.forest.names[-1]: value}
+        lesson = replace(lesson, situation=rulebook.forest.situation(leaves))  # pyright: ignore[reportArgumentType]
+    return rulebook, None, steps
 
 
-def blame_of(book: Rulebook, correction: Correction) -> str:
+def blame_of(rulebook: Rulebook, correction: Correction) -> str:
     """The tree in which the number that a teacher names is read; empty where there is none."""
     tree = READ_FROM.get(correction.about, correction.about)
-    return tree if tree in book.forest.names else ""
+    return tree if tree in rulebook.forest.names else ""
 
 
-def with_feature(book: Rulebook, trouble: Inconsistency, about: str) -> Learned | None:
+def with_feature(rulebook: Rulebook, trouble: Inconsistency, about: str) -> Learned | None:
     """The rulebook with a new tree that resolves right and wrong in one situation (constructive induction).
 
     Only a number that the teacher names will do: among a few instances, chance tells almost any apart.
     """
-    for proposal in propose_features(book, trouble):
+    for proposal in propose_features(rulebook, trouble):
         if about and proposal.tree.source == about:
-            learned = accept(book, proposal)
+            learned = accept(rulebook, proposal)
             return learned if learned.trouble is None else None
     return None
 
 
-def placed(book: Rulebook, moment: Moment) -> Moment:
+def in_own_trees(rulebook: Rulebook, moment: DecisionPoint) -> DecisionPoint:
     """The moment in the rulebook's own trees: those it grew since are read from the numbers."""
-    if moment.situation.trees == book.forest.names:
-        return moment
-    known = dict(moment.situation.items())
-    values: dict[str, str | float] = {}
-    for tree in book.forest.trees:
-        leaf = known.get(tree.name)
-        values[tree.name] = leaf if leaf is not None else moment.raw[tree.source or tree.name]
-    return replace(moment, situation=book.forest.situation(values))
+    return replace(moment, situation=in_trees_of(rulebook, moment.situation, moment.raw))

@@ -4,13 +4,13 @@ import math
 from dataclasses import replace
 
 import numpy as np
-import shapely
 
 from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.learning.kinematic import Course
 from gaitwright.model.robot import Robot
 from gaitwright.navigation.navigator import Navigator
 from gaitwright.navigation.obstacles import PlanView
+from gaitwright.perception.known_ground import KnownGround
 from gaitwright.signals import Mission
 from gaitwright.skills.library import speed_scale
 
@@ -30,15 +30,22 @@ def course(robot: Robot, seed: int, kind: str = "", name: str = "") -> Course:
     kind = kind or KINDS[int(rng.integers(len(KINDS)))]
     scale = 1.0 if robot.height <= 0.6 else float(round(robot.height / 0.29))
     scene = replace(scene_of(kind, rng, scale), start=(0.0, 0.0, 0.0))
-    navigator = Navigator.of(robot, scene)
-    if navigator.view.blocked((0.0, 0.0)):  # everything there is a box to stand on
-        open_field = PlanView((), shapely.box(*scene.bounds))
-        navigator = replace(navigator, view=open_field)
+    navigator, perception = Navigator(robot), KnownGround.of(scene, robot)
     low, high = SPEEDS[int(rng.integers(len(SPEEDS)))]
     speed = float(rng.uniform(low, high)) * speed_scale(robot)
-    points = way_points(navigator, rng, scale, across=kind in ("stairs", "ramp", "gap"))
+    points = way_points(
+        navigator.view(perception.ground), rng, scale, across=kind in ("stairs", "ramp", "gap")
+    )
     yaw = float(rng.uniform(-math.pi, math.pi)) if rng.uniform() < 0.5 else float(rng.normal(0.0, 0.3))
-    return Course(robot, navigator, scene, Mission(points, speed), yaw, name or f"{scene.name} (seed {seed})")
+    return Course(
+        robot,
+        navigator,
+        perception,
+        scene,
+        Mission(points, speed),
+        yaw,
+        name or f"{scene.name} (seed {seed})",
+    )
 
 
 def scene_of(kind: str, rng: np.random.Generator, scale: float) -> Scene:
@@ -57,7 +64,7 @@ def scene_of(kind: str, rng: np.random.Generator, scale: float) -> Scene:
 
 
 def way_points(
-    navigator: Navigator, rng: np.random.Generator, scale: float, across: bool
+    view: PlanView, rng: np.random.Generator, scale: float, across: bool
 ) -> tuple[tuple[float, float], ...]:
     """One to three points that can be gone to, and often back again; `across`: over what lies along x."""
     far = scale * REACH
@@ -65,7 +72,7 @@ def way_points(
     wanted = int(rng.integers(1, 4))
     while len(points) < wanted:
         point = (float(rng.uniform(-0.7, 2.2)) * far, float(rng.uniform(-0.8, 0.8)) * far)
-        if navigator.view.inside(point) and not navigator.view.blocked(point):
+        if view.inside(point) and not view.blocked(point):
             points.append(point)
     there_and_back = [*points[-2::-1], (0.0, 0.0)] if rng.uniform() < BACK else []
     return (*points, *there_and_back)

@@ -8,7 +8,7 @@ from gaitwright.knowledge.memory import Action
 
 
 @dataclass(frozen=True, slots=True)
-class Moment:
+class DecisionPoint:
     """One moment in which a skill is chosen: where the robot was, what was measured, and what came of it.
 
     `memory` is working memory before the choice; `id` says where and when.
@@ -21,10 +21,10 @@ class Moment:
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class TraceStep:
     """What was done at a moment: the action, by which rule (empty where no rule did it)."""
 
-    moment: Moment
+    moment: DecisionPoint
     action: Action | None
     rule: str = ""
 
@@ -38,9 +38,9 @@ class Criticism:
     fired there erred by commission; the rule that should have fired, by omission.
     """
 
-    right: tuple[Step, ...]
-    wrong: Step | None = None
-    ideal: Step | None = None
+    right: tuple[TraceStep, ...]
+    wrong: TraceStep | None = None
+    ideal: TraceStep | None = None
 
     @property
     def at(self) -> int:
@@ -48,9 +48,9 @@ class Criticism:
         return len(self.right)
 
 
-def criticise(ideal: Sequence[Step], done: Sequence[Step]) -> Criticism:
+def criticise(ideal: Sequence[TraceStep], done: Sequence[TraceStep]) -> Criticism:
     """The rules' trace against the ideal one. Both are over the same moments."""
-    right: list[Step] = []
+    right: list[TraceStep] = []
     for wanted, step in zip(ideal, done, strict=True):
         if step.action != wanted.action:
             return Criticism(tuple(right), step, wanted)

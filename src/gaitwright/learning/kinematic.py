@@ -13,11 +13,12 @@ import numpy as np
 
 from gaitwright.ground.scene import Scene
 from gaitwright.knowledge.memory import remembered
-from gaitwright.learning.critic import Moment
+from gaitwright.learning.critic import DecisionPoint
 from gaitwright.model.kinematics import angles
 from gaitwright.model.robot import Robot
-from gaitwright.navigation.navigator import Navigator
+from gaitwright.navigation.navigator import Navigator, Travelled
 from gaitwright.numerics.geometry import GRAVITY, quaternion_of, upright_rotation
+from gaitwright.perception.known_ground import KnownGround
 from gaitwright.signals import Mission, Route, Sensed, SkillCall
 from gaitwright.skills.situation import measured, named
 
@@ -38,32 +39,36 @@ class Course:
 
     robot: Robot
     navigator: Navigator
+    perception: KnownGround
     scene: Scene
     mission: Mission
     yaw: float
     name: str
 
 
-def moments_of(course: Course, driver: Driver, rng: np.random.Generator) -> list[Moment]:
+def moments_of(course: Course, driver: Driver, rng: np.random.Generator) -> list[DecisionPoint]:
     """The moments of one trip, driven by `driver`."""
     body = Body(course, rng)
     sensed = body.sensed(0.0, None)
-    route = course.navigator.set_out(course.mission, sensed)
+    navigator, perception, ground = course.navigator, course.perception, course.perception.ground
+    scan = perception.look(ground, sensed)
+    route, travelled = navigator.set_out(course.mission, sensed, ground, scan)
     now: SkillCall | None = None
     moments = []
     for k in range(LONGEST):
         route = met(course, route, rng)
         raw = measured(course.robot, route, sensed, now)
         memory = remembered(now.memory if now else {})
-        moments.append(Moment(f"{course.name}, moment {k + 1}", named(raw, now), raw, memory))
+        moments.append(DecisionPoint(f"{course.name}, moment {k + 1}", named(raw, now), raw, memory))
         now = driver(route, sensed, now)
         if route.arrived or not route.path:
             break
         before = body.x, body.y
         body.go(now, route)
-        route = gone(course.navigator, route, before, (body.x, body.y))
+        travelled |= gone(navigator, before, (body.x, body.y))
         sensed = body.sensed(TICK * (k + 1), now)
-        route = course.navigator.plan(route, sensed)
+        scan = perception.look(ground, sensed)
+        route, travelled = navigator.plan(route, sensed, ground, scan, travelled)
     return moments
 
 
@@ -75,11 +80,11 @@ def met(course: Course, route: Route, rng: np.random.Generator) -> Route:
     return replace(route, ahead=replace(route.ahead, obstacle=min(away, route.ahead.obstacle)))
 
 
-def gone(navigator: Navigator, route: Route, start: tuple[float, float], end: tuple[float, float]) -> Route:
-    """The route with the way between two places remembered."""
+def gone(navigator: Navigator, start: tuple[float, float], end: tuple[float, float]) -> Travelled:
+    """The cells on the way between two places."""
     shares = np.linspace(0.0, 1.0, 12).tolist()
     way = [(start[0] + k * (end[0] - start[0]), start[1] + k * (end[1] - start[1])) for k in shares]
-    return replace(route, travelled=route.travelled | {navigator.cell(point) for point in way})
+    return frozenset(navigator.cell(point) for point in way)
 
 
 class Body:

@@ -12,14 +12,24 @@ from itertools import groupby
 import numpy as np
 
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.learning.apprentice import Studied, confirmed, corrected, held, outranked, step_of, study
+from gaitwright.learning.apprentice import (
+    Studied,
+    confirmed,
+    corrected,
+    only_goes_on,
+    outranked,
+    step_of,
+    study,
+)
 from gaitwright.learning.courses import course
-from gaitwright.learning.critic import Moment
+from gaitwright.learning.critic import DecisionPoint
 from gaitwright.learning.exam import firm_share, is_right
 from gaitwright.learning.kinematic import moments_of
 from gaitwright.learning.teacher import ScriptedTeacher, Teacher
 from gaitwright.learning.trips import SCHOOL, teacher_drives, trips
 from gaitwright.model.robot import Robot
+from gaitwright.skillbook.writer import Ledger
+from gaitwright.skills.book_trees import up_to_date
 from gaitwright.skills.situation import FOREST
 
 KINDS_OF_RULES = 13
@@ -33,7 +43,7 @@ class Demonstration:
     """A stretch of a teacher's trip in which she uses one skill."""
 
     rule: str
-    moments: tuple[Moment, ...]
+    moments: tuple[DecisionPoint, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +69,7 @@ class SchoolReport:
 class Schooled:
     """A rulebook and how it came to be."""
 
-    book: Rulebook
+    rulebook: Rulebook
     report: SchoolReport
 
 
@@ -86,13 +96,15 @@ def demonstrations(
     return tuple(shown for row in found.values() for shown in row)
 
 
-def spread(moments: Sequence[Moment], most: int) -> tuple[Moment, ...]:
+def spread(moments: Sequence[DecisionPoint], most: int) -> tuple[DecisionPoint, ...]:
     """At most so many of them, from the first on, evenly."""
     places = np.unique(np.linspace(0, len(moments) - 1, most).round().astype(int))
     return tuple(moments[int(k)] for k in places)
 
 
-def demonstrate(book: Rulebook, teacher: Teacher, shown: Sequence[Demonstration], passes: int = 3) -> Studied:
+def demonstrate(
+    rulebook: Rulebook, teacher: Teacher, shown: Sequence[Demonstration], passes: int = 3
+) -> Studied:
     """The rulebook after demonstrations: one of each skill in turn, then the next of each."""
     order: dict[str, int] = {}
     turns = []
@@ -100,19 +112,19 @@ def demonstrate(book: Rulebook, teacher: Teacher, shown: Sequence[Demonstration]
         order[one.rule] = order.get(one.rule, -1) + 1
         turns.append((order[one.rule], one))
     moments = [moment for _, one in sorted(turns, key=lambda turn: turn[0]) for moment in one.moments]
-    return study(book, teacher, moments, passes)
+    return study(rulebook, teacher, moments, passes)
 
 
-def correct(book: Rulebook, teacher: Teacher, moment: Moment) -> Studied:
+def correct(rulebook: Rulebook, teacher: Teacher, moment: DecisionPoint) -> Studied:
     """The rulebook after the teacher looked at one moment: confirmed, or corrected once."""
-    step, shown = step_of(book, moment), teacher.ideal(moment.raw)
+    step, shown = step_of(rulebook, moment), teacher.ideal(moment.raw)
     correction = teacher.judge(step.action, moment.raw)
     if correction is not None:
-        return corrected(book, moment, correction)
-    if not shown.clear or step.action != shown.action or held(step):
-        return Studied(book)
-    studied = confirmed(book, step)
-    return studied.then(outranked(studied.book, teacher, moment))
+        return corrected(rulebook, moment, correction)
+    if not shown.clear or step.action != shown.action or only_goes_on(step):
+        return Studied(rulebook)
+    studied = confirmed(rulebook, step)
+    return studied.then(outranked(studied.rulebook, teacher, moment))
 
 
 def attend(  # noqa: PLR0913 - a whole school; every setting has its default
@@ -123,18 +135,20 @@ def attend(  # noqa: PLR0913 - a whole school; every setting has its default
     trips_watched: int = 40,
     progress: Callable[[str, int, int], None] | None = None,
     keep: Callable[[Studied], None] | None = None,
+    start: Rulebook | None = None,
 ) -> Schooled:
     """The whole school: demonstrations first, then trips that the rules decide and the teacher watches.
 
     She shows each skill at most `per_skill` times: some of these at first, the others where the rules go
     wrong. `progress` is told what is going on, how much of it is done, and how much there is; `keep` gets
-    what was learned since it was last called, to put it away before anything else is learned.
+    what was learned since it was last called, to put it away before anything else is learned; `start` has
+    rules that are known already (none).
     """
     teacher = teacher or ScriptedTeacher()
     tell = progress or (lambda what, done, of: None)
     shown = demonstrations(robot, teacher, seed, min(AT_FIRST, per_skill))
     tell("demonstrations", 0, len(shown))
-    studied = demonstrate(Rulebook(FOREST), teacher, shown)
+    studied = demonstrate(up_to_date(start or Rulebook(FOREST)), teacher, shown)
     tell("demonstrations", len(shown), len(shown))
     keep = keep or (lambda _: None)
     keep(studied)
@@ -142,7 +156,7 @@ def attend(  # noqa: PLR0913 - a whole school; every setting has its default
     interventions = []
     for k in range(trips_watched):
         number = (SCHOOL * 1000 + seed) * 1_000_000 + 500_000 + k
-        watched = watch(studied.book, robot, teacher, number, times, per_skill)
+        watched = watch(studied.rulebook, robot, teacher, number, times, per_skill)
         interventions.append(watched.corrections)
         studied = studied.then(watched)
         keep(watched)
@@ -154,13 +168,33 @@ def attend(  # noqa: PLR0913 - a whole school; every setting has its default
         tuple(interventions),
         studied.lessons,
         len(studied.open),
-        firm_share(studied.book),
+        firm_share(studied.rulebook),
     )
-    return Schooled(studied.book, report)
+    return Schooled(studied.rulebook, report)
+
+
+def keep(ledger: Ledger, studied: Studied) -> None:
+    """Puts every step of what was studied away in a skillbook, each durable before the next."""
+    for step in studied.steps:
+        if step.how == "edited":
+            ledger.edit(step.result.rulebook, "a new feature, named by the teacher")
+        else:
+            ledger.record(step.lesson, step.result, step.how)
+
+
+def catch_up(ledger: Ledger) -> Rulebook:
+    """The rulebook of a ledger, over today's trees: those that came after it was begun are put away first.
+    Raises `WrongUse` for a book that is about something else."""
+    old = ledger.book.rulebook
+    new = up_to_date(old)
+    if new is not old:
+        later = ", ".join(new.forest.names[len(old.forest.names) :])
+        ledger.edit(new, f"{later}: known since this book was made")
+    return new
 
 
 def watch(
-    book: Rulebook, robot: Robot, teacher: Teacher, number: int, times: Counter[str], per_skill: int
+    rulebook: Rulebook, robot: Robot, teacher: Teacher, number: int, times: Counter[str], per_skill: int
 ) -> Studied:
     """One trip: at each moment the rules choose; what is right is confirmed, what is wrong corrected once.
 
@@ -168,12 +202,12 @@ def watch(
     often she showed each skill; beyond `per_skill` she lets a mistake pass.
     """
     rng = np.random.default_rng([number, 7])
-    studied = Studied(book)
+    studied = Studied(rulebook)
     for moment in moments_of(course(robot, number), teacher_drives(robot, teacher), rng):
         rule = teacher.ideal(moment.raw).rule
-        if times[rule] >= per_skill and not is_right(studied.book, teacher, moment):
+        if times[rule] >= per_skill and not is_right(studied.rulebook, teacher, moment):
             continue
-        taught = correct(studied.book, teacher, moment)
+        taught = correct(studied.rulebook, teacher, moment)
         times[rule] += taught.corrections
         studied = studied.then(taught)
     return studied

@@ -7,12 +7,12 @@ import numpy as np
 
 from gaitwright.knowledge.memory import remembered
 from gaitwright.learning.courses import course
-from gaitwright.learning.critic import Moment
+from gaitwright.learning.critic import DecisionPoint
 from gaitwright.learning.kinematic import Driver, moments_of
 from gaitwright.learning.teacher import Teacher
 from gaitwright.model.robot import Robot
 from gaitwright.signals import Route, Sensed, SkillCall
-from gaitwright.skills.rule_chooser import DOING, carried_out
+from gaitwright.skills.rule_chooser import DOING, carry_out
 from gaitwright.skills.situation import measured
 
 SCHOOL, EXAM = 1, 2
@@ -26,13 +26,13 @@ def teacher_drives(robot: Robot, teacher: Teacher) -> Driver:
 
     def drive(route: Route, sensed: Sensed, now: SkillCall | None) -> SkillCall:
         shown = teacher.ideal(measured(robot, route, sensed, now))
-        call = carried_out(robot, shown.action, route, sensed)
+        call = carry_out(robot, shown.action, route, sensed)
         return replace(call, memory=remembered({DOING: shown.rule}))
 
     return drive
 
 
-def trips(robot: Robot, teacher: Teacher, seed: int, kind: str = "") -> Iterator[list[Moment]]:
+def trips(robot: Robot, teacher: Teacher, seed: int, kind: str = "") -> Iterator[list[DecisionPoint]]:
     """Trips that the teacher drives, on and on."""
     for k in range(MOST_COURSES):
         number = seed * 1_000_000 + k

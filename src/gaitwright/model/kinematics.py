@@ -11,10 +11,10 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Bool, Float
 
-from gaitwright.errors import WrongUse, unknown
+from gaitwright.errors import WrongUse
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.compiled import kernel
-from gaitwright.numerics.geometry import add, cross, scale, sub, turn_x, turn_y, vec, wrap
+from gaitwright.numerics.geometry import add, sub, turn_x, turn_y, vec, wrap
 
 REACHED, TOO_NEAR_AXIS, TOO_FAR, TOO_NEAR_HIP = 0, 1, 2, 3
 """Reach codes; `model/reach.py` makes sentences of them."""
@@ -31,26 +31,16 @@ HINGES = ("hip 1", "hip 2", "knee")
 
 @kernel
 def foot_in_leg(q, offset, sign):
-    """Foot centre [m] in the leg frame for angles `q` of one leg."""
+    """Foot centre [m] in the leg frame for angles `q` of one leg.
+
+    Of any other point of the leg, too: it is the foot of a leg whose offsets end there. The two turns in the
+    plane of the knee are added up, which saves a turn of what `leg.foot_and_columns` does, who needs each.
+    """
     c1, s1 = math.cos(q[0]), math.sin(q[0])
     c2, s2 = math.cos(q[1]), math.sin(q[1])
     b = q[1] + sign * q[2]
     shank = turn_y(math.cos(b), math.sin(b), vec(offset[2]))
     return turn_x(c1, s1, add(vec(offset[0]), add(turn_y(c2, s2, vec(offset[1])), shank)))
-
-
-@kernel
-def leg_points_and_jacobian(q, offset, sign):
-    """Foot centre in the leg frame and the columns of its Jacobian there, as four 3-vectors."""
-    c1, s1 = math.cos(q[0]), math.sin(q[0])
-    c2, s2 = math.cos(q[1]), math.sin(q[1])
-    b = q[1] + sign * q[2]
-    shank = turn_x(c1, s1, turn_y(math.cos(b), math.sin(b), vec(offset[2])))
-    thigh = turn_x(c1, s1, turn_y(c2, s2, vec(offset[1])))
-    below_hip = add(thigh, shank)
-    foot = add(turn_x(c1, s1, vec(offset[0])), below_hip)
-    axis2 = (0.0, c1, s1)
-    return foot, cross((1.0, 0.0, 0.0), foot), cross(axis2, below_hip), scale(sign, cross(axis2, shank))
 
 
 @kernel
@@ -118,6 +108,15 @@ def all_feet(hip, leg_frame, offset, sign, q):
 
 
 @kernel
+def feet_over_time(hip, leg_frame, offset, sign, q):
+    """`all_feet` for many moments: angles `(moments, legs, 3)`."""
+    out = np.empty(q.shape)
+    for i in range(q.shape[0]):
+        out[i] = all_feet(hip, leg_frame, offset, sign, q[i])
+    return out
+
+
+@kernel
 def all_angles(hip, leg_frame, offset, sign, branch, feet):
     """Angles `(legs, 3)` and reach codes `(legs,)` for foot centres `feet` in the base frame."""
     n = hip.shape[0]
@@ -155,25 +154,6 @@ def angles(
     places = per_leg(robot, feet_b, "the foot's", "xyz")
     q, codes = all_angles(a.hip, a.leg_frame, a.offset, a.sign, a.branch, places)
     return q, codes == REACHED
-
-
-def branches(
-    robot: Robot, leg: str, foot_b: Float[np.ndarray, "3"]
-) -> dict[tuple[int, int], Float[np.ndarray, "3"]]:
-    """Joint angles [rad] of each branch (sg, kn) that brings the foot of `leg` to `foot_b`, base frame [m].
-
-    Four far inside the reach, none outside; at a singular pose two are the same. Joint limits are not
-    asked. Raises `WrongUse` for a leg that the robot does not have and for a place that is none.
-    """
-    if leg not in robot.legs:
-        raise unknown("leg", leg, robot.legs)
-    i = robot.legs.index(leg)
-    place = np.ascontiguousarray(foot_b, dtype=np.float64)
-    if place.shape != (3,) or not np.isfinite(place).all():
-        raise WrongUse(f"leg {leg}: the foot's place is {place.tolist()}; expected three finite numbers [m]")
-    a = robot.arrays
-    point = to_leg(a.leg_frame[i], a.hip[i], place)
-    return reached_branches(point, a.offset[i], float(a.sign[i]))
 
 
 def reached_branches(

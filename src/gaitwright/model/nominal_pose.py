@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float
 
 from gaitwright.model.kinematics import BRANCHES, foot_in_leg, reached_branches, to_leg
-from gaitwright.numerics.geometry import turn_x, turn_y
+from gaitwright.numerics.geometry import turn_x, turn_y, wrapped
 
 DEPTH_BELOW_ABDUCTION = 0.65
 """Abduction leg: depth of the foot below hinge 2, per length of the stretched leg."""
@@ -129,11 +129,6 @@ def branch_of(leg: LegShape, q: Float[np.ndarray, "3"]) -> tuple[int, int] | Non
     gap = {branch: float(np.abs(wrapped(q - other)).max()) for branch, other in choices.items()}
     nearest, second = sorted(gap, key=gap.__getitem__)[:2]
     return nearest if gap[second] > BENT else None
-
-
-def wrapped(angle: Float[np.ndarray, "n"]) -> Float[np.ndarray, "n"]:
-    """Angles [rad] brought into (-π, π]."""
-    return np.arctan2(np.sin(angle), np.cos(angle))
 
 
 def down_in_shank(leg: LegShape, q: Float[np.ndarray, "3"]) -> Float[np.ndarray, "3"]:

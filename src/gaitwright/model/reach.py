@@ -16,8 +16,16 @@ from gaitwright.model.kinematics import (
     per_leg,
     to_leg,
 )
-from gaitwright.model.leg_motion import AXIS_SHARE, KNEE_SINE, bend_area, bent_leg, link_lengths
+from gaitwright.model.leg import (
+    SINGULAR,
+    foot_and_columns,
+    hinge_axes,
+    is_regular,
+    leg_turns,
+    longest_square,
+)
 from gaitwright.model.robot import Robot
+from gaitwright.numerics.geometry import cross, dot, scale, sub
 
 BEYOND_LIMIT = 4
 """Reach code beside those of `kinematics`: the leg is long enough, but a joint limit is in the way."""
@@ -72,7 +80,7 @@ def reach_of(
         return told(leg, code, math.hypot(y, z), abs(aside))
     down = robot.branch[i, 0] * math.sqrt(max(0.0, y * y + z * z - aside * aside))
     distance = math.hypot(x - offset[0, 0], down - offset[0, 2])
-    thigh, shank = link_lengths(tuple(offset[1]), tuple(offset[2]))
+    thigh, shank = np.hypot(offset[1:, 0], offset[1:, 2])
     return told(leg, code, distance, abs(thigh - shank) if code == TOO_NEAR_HIP else thigh + shank)
 
 
@@ -84,6 +92,8 @@ def told(leg: str, code: int, measure: float, limit: float, joint: str = "") -> 
 
 # --- singular poses --------------------------------------------------------------------------------
 UNDER_AXIS, KNEE_STRAIGHT, KNEE_FOLDED = 1, 2, 3
+CAUSE = math.sqrt(SINGULAR)
+"""The volume of the Jacobian is a product of two shares; where it is singular one is below this, and told."""
 
 
 class Pose(NamedTuple):
@@ -108,17 +118,22 @@ def poses(robot: Robot, q: Float[np.ndarray, "legs 3"]) -> tuple[Pose, ...]:
 
 def pose_of(robot: Robot, i: int, q: Float[np.ndarray, "3"]) -> Pose:
     """The `Pose` of leg `i` at joint angles `q`."""
-    thigh, shank, foot = bent_leg(q, robot.offset[i], robot.sign[i])
-    long, short = link_lengths(thigh, shank)
-    aside, sine = abs(foot[2]), abs(bend_area(thigh, shank)) / (long * short)
-    straight = thigh[0] * shank[0] + thigh[2] * shank[2] > 0.0
+    sign, offset = float(robot.sign[i]), tuple(map(tuple, robot.offset[i].tolist()))
+    turns = leg_turns(tuple(q), sign)
+    _, c1, c2, c3 = foot_and_columns(turns, offset, sign)
+    axis2 = hinge_axes(turns, sign)[1]
+    thigh, shank = sub(c2, scale(sign, c3)), scale(sign, c3)  # each a quarter turn on about the second axis
+    long, short, r = math.sqrt(dot(thigh, thigh)), math.sqrt(dot(shank, shank)), longest_square(c1, c2, c3)
+    aside, area = abs(dot(c1, axis2)), abs(dot(cross(thigh, shank), axis2))
+    sine, straight = area / (long * short), dot(thigh, shank) > 0.0
+    regular = is_regular(c1, c2, c3)
     singular, words, here, bend = [], [], f"{round(aside, 9):.2g} m", f"{round(sine, 9):.2g}"
-    if aside < AXIS_SHARE * (long + short):
+    if not regular and aside < CAUSE * math.sqrt(r):
         singular.append(UNDER_AXIS)
         words.append(f"the foot is under the first axis, {here} from it in the plane of the knee")
-    if sine < KNEE_SINE:
+    if not regular and area < CAUSE * math.sqrt(r) * short:
         singular.append(KNEE_STRAIGHT if straight else KNEE_FOLDED)
         words.append(f"the knee is {'straight' if straight else 'folded'}, its sine is {bend}")
-    regular = f"regular: the foot is {here} from under the first axis, the knee's sine is {bend}"
-    sentence = f"leg {robot.legs[i]}: {' and '.join(words) or regular}"
+    fine = f"regular: the foot is {here} from under the first axis, the knee's sine is {bend}"
+    sentence = f"leg {robot.legs[i]}: {' and '.join(words) or fine}"
     return Pose(robot.legs[i], tuple(singular), aside, sine, sentence)

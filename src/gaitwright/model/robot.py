@@ -6,9 +6,9 @@ whether its first hinge is an abduction (x forward) or a yaw (x up). All that te
 the other is where the leg frame points.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -144,6 +144,18 @@ class Robot:
     def packed(self) -> Float[np.ndarray, "numbers"]:
         """All of `arrays` in one, the number of legs first: one argument costs a kernel call far less."""
         return np.concatenate([[float(self.n)], *(field.ravel() for field in self.arrays)])
+
+
+def lists_of(robot: Robot) -> dict[str, Any]:
+    """The fields of a robot as plain JSON values."""
+    values = {field.name: getattr(robot, field.name) for field in fields(Robot)}
+    return {name: v.tolist() if isinstance(v, np.ndarray) else v for name, v in values.items()}
+
+
+def robot_of(values: dict[str, Any]) -> Robot:
+    """The robot of what `lists_of` gave."""
+    arrays: dict[str, Any] = {name: np.array(v) for name, v in values.items() if isinstance(v, list)}
+    return Robot(**{**values, **arrays, "legs": tuple(values["legs"])})
 
 
 @kernel

@@ -1,12 +1,13 @@
 """What a path keeps clear of, seen from above: boxes grown by the robot's half width, the edge."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import shapely
 from shapely import Polygon
 
-from gaitwright.ground.scene import BLIND_STEP, Scene
 from gaitwright.model.robot import Robot
+from gaitwright.signals import GroundMap
 
 CLEARANCE = 0.15
 """Room beside the robot's feet, in body lengths."""
@@ -51,13 +52,12 @@ def half_width(robot: Robot) -> float:
     return float(abs(robot.stance[:, 1]).max()) + CLEARANCE * robot.body_length
 
 
-def plan_view(scene: Scene, robot: Robot, step: float = BLIND_STEP) -> PlanView:
-    """The scene as the planner sees it; `step` is what the robot steps on, in body heights."""
-    margin = half_width(robot)
+@lru_cache(maxsize=4)
+def plan_view(ground: GroundMap, margin: float) -> PlanView:
+    """A map as the planner sees it: its obstacles grown by a margin [m]."""
     grown = (
-        Polygon(box.corners()).buffer(margin, join_style="mitre", mitre_limit=1.5)
-        for box in scene.obstacles(robot, step)
+        Polygon(outline).buffer(margin, join_style="mitre", mitre_limit=1.5) for outline in ground.obstacles
     )
     merged = shapely.union_all(list(grown))
     parts = getattr(merged, "geoms", [merged])
-    return PlanView(tuple(p for p in parts if not p.is_empty), shapely.box(*scene.bounds))
+    return PlanView(tuple(p for p in parts if not p.is_empty), shapely.box(*ground.bounds))

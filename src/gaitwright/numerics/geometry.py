@@ -93,6 +93,15 @@ def rotation(quaternion):
 
 
 @kernel
+def rotations(quaternions):
+    """`rotation` of each of many: `(n, 4)` → `(n, 3, 3)`."""
+    out = np.empty((quaternions.shape[0], 3, 3))
+    for i in range(quaternions.shape[0]):
+        out[i] = rotation(quaternions[i])
+    return out
+
+
+@kernel
 def between(start, end):
     """The rotation that takes `start` to `end`: `end @ start.T`."""
     out = np.empty((3, 3))
@@ -185,16 +194,43 @@ def yaw_quaternion(yaw: float) -> Float[np.ndarray, "4"]:
     return np.array([math.cos(yaw / 2), 0.0, 0.0, math.sin(yaw / 2)])
 
 
-def roll_pitch_yaw(matrix: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3"]:
-    """Roll, pitch, yaw [rad] (3-2-1, equations.md §1) of a rotation matrix `R_wb`.
+def roll_pitch_yaw(matrix: Float[np.ndarray, "*batch 3 3"]) -> Float[np.ndarray, "*batch 3"]:
+    """Roll, pitch, yaw [rad] (3-2-1, equations.md §1) of rotation matrices `R_wb`.
 
     At a pitch of ±90°, where only their difference is known, the yaw is 0.
     """
-    level = math.hypot(matrix[0, 0], matrix[1, 0])
-    pitch = math.atan2(-matrix[2, 0], level)
-    if level < 1e-9:
-        return np.array([math.atan2(-matrix[1, 2], matrix[1, 1]), pitch, 0.0])
-    return np.array([math.atan2(matrix[2, 1], matrix[2, 2]), pitch, math.atan2(matrix[1, 0], matrix[0, 0])])
+    m = np.moveaxis(matrix, (-2, -1), (0, 1))
+    level = np.hypot(m[0, 0], m[1, 0])
+    known = level >= 1e-9
+    roll = np.where(known, np.arctan2(m[2, 1], m[2, 2]), np.arctan2(-m[1, 2], m[1, 1]))
+    yaw = np.where(known, np.arctan2(m[1, 0], m[0, 0]), 0.0)
+    return np.stack([roll, np.arctan2(-m[2, 0], level), yaw], axis=-1)
+
+
+def from_roll_pitch_yaw(angles: Float[np.ndarray, "*batch 3"]) -> Float[np.ndarray, "*batch 3 3"]:
+    """Rotation matrices `R_wb` of roll, pitch, yaw [rad]: about z, then y, then x (eq. 3-1)."""
+    (cr, cp, cy), (sr, sp, sy) = (np.moveaxis(f(angles), -1, 0) for f in (np.cos, np.sin))
+    rows = (
+        (cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr),
+        (sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr),
+        (-sp, cp * sr, cp * cr),
+    )
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+def about_axis(axis: int, angle: float) -> Float[np.ndarray, "3 3"]:
+    """Rotation about x (0), y (1) or z (2) by an angle [rad]."""
+    i, j = (axis + 1) % 3, (axis + 2) % 3
+    out = np.eye(3)
+    out[i, i] = out[j, j] = math.cos(angle)
+    out[j, i] = math.sin(angle)
+    out[i, j] = -out[j, i]
+    return out
+
+
+def wrapped(angles: Float[np.ndarray, "*batch"]) -> Float[np.ndarray, "*batch"]:
+    """`wrap` of many angles [rad]."""
+    return np.arctan2(np.sin(angles), np.cos(angles))
 
 
 FROM_THESIS = np.diag([1.0, -1.0, -1.0])

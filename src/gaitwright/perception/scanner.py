@@ -1,15 +1,14 @@
-"""Scene + place + direction → Scan: what the ground ahead is like (row V3)."""
+"""GroundMap + place + direction → Scan: what the ground ahead is like (row V3)."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.ground.scene import Scene
 from gaitwright.model.robot import Robot
-from gaitwright.signals import Scan
+from gaitwright.signals import Elevation, GroundMap, Scan
 
 BEHIND, FAR, SEES = -1.0, 3.5, 8.0
 """The road begins this many body heights ahead of the base, under the hind feet; it ends here; obstacles are
@@ -26,18 +25,25 @@ DEEP = 0.35
 
 @dataclass(frozen=True)
 class Scanner:
-    """Looks at a known scene from a robot's place. Less than 0.3 ms a look."""
+    """Looks at what is known of the ground from a robot's place. Less than 0.3 ms a look."""
 
-    robot: Robot
-    scene: Scene
-    step: float
-    """A sudden rise by more than this is an obstacle, in body heights."""
+    height: float
+    """Of the body [m]."""
+    half_track: float
+    """Half the width between left and right feet [m]."""
 
-    def look(self, place: tuple[float, float], yaw: float, familiar: bool = False) -> Scan:
-        """The ground ahead of a place [m] in direction `yaw` [rad]."""
-        h = self.robot.height
+    @classmethod
+    def of(cls, robot: Robot) -> "Scanner":
+        """The eyes of a robot."""
+        return cls(robot.height, float(abs(robot.stance[:, 1]).max()))
+
+    def look(self, ground: GroundMap, place: Sequence[float] | np.ndarray, yaw: float) -> Scan | None:
+        """The ground ahead of a place x, y [m] in direction `yaw` [rad]; `None` where it is not known."""
+        if ground.elevation is None:
+            return None
+        h = self.height
         along = np.concatenate([np.arange(BEHIND, FAR, SPACING), np.arange(FAR, SEES, 2 * SPACING)]) * h
-        seen, obstacle = in_sight(along, self.heights(place, yaw, along), self.step * h)
+        seen, obstacle = in_sight(along, self.heights(ground.elevation, place, yaw, along), ground.step)
         road = along < FAR * h - 1e-9
         along, seen = along[road], seen[:, road]
         gap = widest_gap(along, seen.min(axis=0), DEEP * h)
@@ -54,20 +60,16 @@ class Scanner:
             gap=gap,
             obstacle=obstacle,
             street=yaw,
-            familiar=familiar,
         )
 
-    def heights(self, place: tuple[float, float], yaw: float, along: np.ndarray) -> np.ndarray:
+    def heights(
+        self, elevation: Elevation, place: Sequence[float] | np.ndarray, yaw: float, along: np.ndarray
+    ) -> np.ndarray:
         """Heights of the ground at distances ahead `(n,)` in each lane `(lanes, n)` [m]."""
         beside = self.half_track * np.array(LANES)[:, None]
         x = place[0] + math.cos(yaw) * along - math.sin(yaw) * beside
         y = place[1] + math.sin(yaw) * along + math.cos(yaw) * beside
-        return np.array(self.scene.height(x, y), dtype=float)
-
-    @cached_property
-    def half_track(self) -> float:
-        """Half the width between left and right feet [m]."""
-        return float(abs(self.robot.stance[:, 1]).max())
+        return np.array(elevation.height(x, y), dtype=float)
 
 
 def in_sight(

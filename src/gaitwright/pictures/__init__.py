@@ -57,7 +57,7 @@ def headline(r: Recording) -> str:
 
 def summary(r: Recording) -> str:
     """The figures in a line."""
-    report = r.report()
+    report = r.figures(state_hash="")
     falls = "no fall" if not report.falls else "fell"
     return (
         f"{report.distance_m:.1f} m in {report.duration_s:.1f} s   ·   {falls}   ·   velocity error "

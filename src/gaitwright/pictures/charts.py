@@ -6,19 +6,22 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from gaitwright.pictures.style import CYCLES, DRIVERS, INK, JOINTS, LEFT, MAP, STYLE, WIDTH, dress
+from gaitwright.pictures.thin import column, shown, spread, step
 from gaitwright.record.metrics import attitude, stretches
 from gaitwright.record.recording import Recording
 
 
 def draw_speed(ax: Axes, r: Recording) -> None:
     """What was asked for, what was done, tick by tick and averaged over a cycle."""
-    time, moved = r["time"], r.moved()
-    ax.plot(time, moved[:, 0], color="#1971c2", alpha=0.28, linewidth=0.8)
-    ax.plot(time, smooth(moved[:, 0], r), color="#1971c2", linewidth=1.8, label="forward, mean of a cycle")
-    if np.abs(r["command"][:, 1]).max() > 1e-3:
-        ax.plot(time, smooth(moved[:, 1], r), color="#2f9e44", linewidth=1.8, label="left, mean of a cycle")
-        ax.plot(time, r["command"][:, 1], color=INK, linewidth=1.2, linestyle=(0, (4, 2)))
-    ax.plot(time, r["command"][:, 0], color=INK, linewidth=1.2, linestyle=(0, (4, 2)), label="asked for")
+    time, command, moved = shown(r.channel("time")), shown(r.channel("command")), r.motion()
+    forward = column(moved, 0)
+    ax.plot(*spread(r.channel("time"), forward), color="#1971c2", alpha=0.28, linewidth=0.8)
+    ax.plot(time, smooth(forward, r), color="#1971c2", linewidth=1.8, label="forward, mean of a cycle")
+    if np.abs(command[:, 1]).max() > 1e-3:
+        left = smooth(column(moved, 1), r)
+        ax.plot(time, left, color="#2f9e44", linewidth=1.8, label="left, mean of a cycle")
+        ax.plot(time, command[:, 1], color=INK, linewidth=1.2, linestyle=(0, (4, 2)))
+    ax.plot(time, command[:, 0], color=INK, linewidth=1.2, linestyle=(0, (4, 2)), label="asked for")
     draw_drivers(ax, r)
     over_time(ax, r, "speed [m/s]")
 
@@ -26,13 +29,14 @@ def draw_speed(ax: Axes, r: Recording) -> None:
 def draw_drivers(ax: Axes, r: Recording) -> None:
     """Who drove when, as a band along the bottom."""
     band = ax.get_xaxis_transform()  # x in seconds, y in shares of the axis
-    for start, end in stretches(r["driver"]):
-        number = int(r["driver"][start])
-        left, right = r["time"][start], r["time"][end - 1]
+    last = float(r.at("time", len(r) - 1))
+    for start, end in stretches(r.channel("driver")):
+        number = int(r.at("driver", start))
+        left, right = float(r.at("time", start)), float(r.at("time", end - 1))
         ax.fill_between(
             [left, right], 0.0, 0.09, transform=band, color=DRIVERS[number % len(DRIVERS)], linewidth=0
         )
-        if right - left > 0.12 * r["time"][-1]:
+        if right - left > 0.12 * last:
             text = f"driver: {r.drivers[number]}"
             ax.text(
                 (left + right) / 2,
@@ -47,14 +51,14 @@ def draw_drivers(ax: Axes, r: Recording) -> None:
 
 
 def draw_attitude(ax: Axes, r: Recording) -> None:
-    roll, pitch = attitude(r["orientation_wb"])
-    ax.plot(r["time"], np.degrees(roll), color="#1971c2", linewidth=0.9, label="roll")
-    ax.plot(r["time"], np.degrees(pitch), color="#e8590c", linewidth=0.9, label="pitch")
+    angles = attitude(r.channel("orientation_wb"))
+    for angle, name, colour in zip(angles, ("roll", "pitch"), ("#1971c2", "#e8590c"), strict=True):
+        ax.plot(*spread(r.channel("time"), np.degrees(angle)), color=colour, linewidth=0.9, label=name)
     over_time(ax, r, "attitude [°]")
 
 
 def over_time(ax: Axes, r: Recording, title: str) -> None:
-    ax.set(xlim=(0.0, max(float(r["time"][-1]), r.dt)), xlabel="time [s]")
+    ax.set(xlim=(0.0, max(float(r.at("time", len(r) - 1)), r.dt)), xlabel="time [s]")
     ax.axhline(0.0, zorder=0, **STYLE)
     ax.margins(y=0.22)
     ax.legend(loc="upper right", ncols=3, frameon=True, framealpha=0.85, edgecolor="none", borderaxespad=0.2)
@@ -62,19 +66,19 @@ def over_time(ax: Axes, r: Recording, title: str) -> None:
 
 
 def smooth(values: np.ndarray, r: Recording) -> np.ndarray:
-    """Mean over the last cycle of the gait."""
+    """Mean over the last cycle of the gait, at the ticks that are drawn."""
     ticks = max(1, min(len(values), round(float(np.median(r["period"])) / r.dt)))
     total = np.concatenate([[0.0], np.cumsum(values)])
-    first = np.maximum(np.arange(len(values)) + 1 - ticks, 0)
-    last = np.arange(len(values)) + 1
+    last = np.arange(0, len(values), step(len(values))) + 1
+    first = np.maximum(last - ticks, 0)
     return (total[last] - total[first]) / (last - first)
 
 
 def draw_torques(ax: Axes, r: Recording, leg: int) -> None:
     """The three torques of a leg as shares of their limits, over some cycles; stance is shaded."""
     part = window(r)
-    time, stance = r["time"][part], r["stance"][part, leg] > 0.5
-    share = r["tau"][part, 3 * leg : 3 * leg + 3] / r.robot.tau_max[leg] * 100.0
+    time, stance = r.channel("time")[part], r.channel("stance")[part][:, leg] > 0.5
+    share = r.channel("tau")[part][:, 3 * leg : 3 * leg + 3] / r.robot.tau_max[leg] * 100.0
     for start, end in stretches(stance):
         if stance[start]:
             ax.axvspan(time[start], time[end - 1], color="#e9ecef", linewidth=0, zorder=0)
@@ -99,7 +103,7 @@ def draw_torques(ax: Axes, r: Recording, leg: int) -> None:
 
 def window(r: Recording) -> slice:
     """Some cycles in the middle of the longest stretch of one skill."""
-    start, end = max(stretches(r["skill"]), key=lambda part: part[1] - part[0])
-    ticks = round(CYCLES * float(r["period"][start]) / r.dt)
+    start, end = max(stretches(r.channel("skill")), key=lambda part: part[1] - part[0])
+    ticks = round(CYCLES * float(r.at("period", start)) / r.dt)
     first = max(start, (start + end - ticks) // 2)
     return slice(first, min(first + ticks, end))

@@ -17,7 +17,7 @@ from gaitwright.files import whole
 from gaitwright.knowledge.consult import Decision
 from gaitwright.knowledge.forest import Situation
 from gaitwright.knowledge.rules import Marks, Rule, Rulebook, status
-from gaitwright.knowledge.trees import ROOT, Tree
+from gaitwright.knowledge.trees import ROOT, FeatureTree
 from gaitwright.pictures import Sheet
 from gaitwright.pictures.rule_trees import ABOVE, CHARACTER, FREE, HERE, draw_trees, layout, shortened
 from gaitwright.pictures.style import FAINT, INK, LEFT, WIDTH
@@ -90,9 +90,9 @@ def heading(sheet: Sheet, book: Rulebook, decision: Decision | None) -> None:
 
 
 # --- all rules in all trees ------------------------------------------------------------------------
-def bands(trees: Sequence[Tree]) -> list[list[Tree]]:
+def bands(trees: Sequence[FeatureTree]) -> list[list[FeatureTree]]:
     """The trees in order, as many side by side as leave every leaf a readable width."""
-    found: list[list[Tree]] = [[]]
+    found: list[list[FeatureTree]] = [[]]
     for tree in trees:
         leaves = sum(len(other.leaves) for other in (*found[-1], tree))
         wide = READABLE * leaves + GAP * (len(found[-1]) + 1)
@@ -102,13 +102,13 @@ def bands(trees: Sequence[Tree]) -> list[list[Tree]]:
     return found
 
 
-def box_width(band: Sequence[Tree]) -> float:
+def box_width(band: Sequence[FeatureTree]) -> float:
     """How wide a leaf is [in]."""
     room = WIDTH - 2 * LEFT - NAMES - GAP * len(band)
     return min(WIDEST, room / sum(len(tree.leaves) for tree in band))
 
 
-def band_height(band: Sequence[Tree], rules: int) -> float:
+def band_height(band: Sequence[FeatureTree], rules: int) -> float:
     """Names, strips and labels of trees that stand side by side [in]."""
     longest = max(len(leaf) for tree in band for leaf in tree.leaves)
     labels = LETTER * min(longest, LONGEST) if box_width(band) >= READABLE else 0.0
@@ -116,7 +116,12 @@ def band_height(band: Sequence[Tree], rules: int) -> float:
 
 
 def draw_band(
-    sheet: Sheet, top: float, book: Rulebook, band: Sequence[Tree], situation: Situation | None, chosen: str
+    sheet: Sheet,
+    top: float,
+    book: Rulebook,
+    band: Sequence[FeatureTree],
+    situation: Situation | None,
+    chosen: str,
 ) -> None:
     """A row for each rule, a strip for each tree; the axes are in inches, top down."""
     width, height = WIDTH - 2 * LEFT, band_height(band, len(book.rules))
@@ -160,7 +165,7 @@ def named(ax: Axes, rule: Rule, top: float, chosen: bool) -> None:
     ax.text(0.0, top + 0.79 * ROW, status(rule), fontsize=7.5, color=FAINT, va="center")
 
 
-def strip(ax: Axes, tree: Tree, marks: Marks, place: tuple[float, float, float], fires: bool) -> None:
+def strip(ax: Axes, tree: FeatureTree, marks: Marks, place: tuple[float, float, float], fires: bool) -> None:
     """The leaves of a tree under one rule's marks; `place`: left, top and width of a leaf [in]."""
     left, top, box = place
     height, count = 0.62 * ROW, len(tree.leaves)
@@ -181,7 +186,7 @@ def strip(ax: Axes, tree: Tree, marks: Marks, place: tuple[float, float, float],
     ax.add_patch(Rectangle((left, top), box * count, height, fill=False, **frame))
 
 
-def leaf_labels(ax: Axes, tree: Tree, place: tuple[float, float, float]) -> None:
+def leaf_labels(ax: Axes, tree: FeatureTree, place: tuple[float, float, float]) -> None:
     """The names of the leaves below the last strip."""
     left, top, box = place
     for k, leaf in enumerate(tree.leaves):
@@ -191,7 +196,7 @@ def leaf_labels(ax: Axes, tree: Tree, place: tuple[float, float, float]) -> None
         )  # fmt: skip
 
 
-def leaf_span(tree: Tree, mark: str) -> tuple[int, int]:
+def leaf_span(tree: FeatureTree, mark: str) -> tuple[int, int]:
     """The first of the leaves below a mark and one past the last: branches stand together."""
     below = tree.leaves_below(mark)
     first = tree.leaf_place[below[0]]

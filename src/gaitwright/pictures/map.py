@@ -14,21 +14,23 @@ from gaitwright.ground.scene import SEEN_STEP, Scene
 from gaitwright.model.kinematics import feet
 from gaitwright.numerics.geometry import rotation
 from gaitwright.pictures.style import EARTH, INK, MAP, SKILLS, dress
+from gaitwright.pictures.thin import shown
 from gaitwright.record.metrics import heading_over_time, stretches, touchdowns
 from gaitwright.record.recording import Recording
+from gaitwright.record.rows import parts
 
 
 def draw_map(ax: Axes, r: Recording, scene: Scene) -> None:
     """The ground from above, what stands on it, footprints, and the way in the colours of the skills."""
-    bounds = view(r)
+    way, skill = shown(r.channel("position_w"))[:, :2], shown(r.channel("skill"))
+    bounds = view(r, way)
     draw_ground(ax, r, scene, bounds)
     draw_footprints(ax, r)
-    draw_bodies(ax, r)
-    way = r["position_w"][:, :2]
+    draw_bodies(ax, r, way)
     ax.plot(*way.T, color="white", linewidth=5.0, zorder=4, solid_capstyle="round")
-    for start, end in stretches(r["skill"]):
+    for start, end in stretches(skill):
         piece = way[start : end + 1]
-        colour = SKILLS.get(r.skills[int(r["skill"][start])], INK)
+        colour = SKILLS.get(r.skills[int(skill[start])], INK)
         ax.add_collection(LineCollection([piece], colors=colour, linewidths=2.6, zorder=5, capstyle="round"))
     ends = {"edgecolors": "white", "linewidths": 1.2, "zorder": 6}
     ax.scatter(*way[0], s=110, marker="o", c=INK, **ends)
@@ -46,16 +48,15 @@ def draw_map(ax: Axes, r: Recording, scene: Scene) -> None:
     ]
     if scene.boxes:
         handles.append(Patch(facecolor="#d9c9a8", edgecolor="#a8946c", label="low: stepped on"))
-    if scene.obstacles(r.robot, SEEN_STEP):
+    if scene.obstacles(SEEN_STEP * r.robot.height):
         handles.append(Patch(facecolor="#c9ced6", edgecolor=INK, hatch="////", label="high: walked around"))
     ax.legend(
         handles=handles, loc="upper left", ncols=len(handles), frameon=True, framealpha=0.92, edgecolor="none"
     )
 
 
-def view(r: Recording) -> tuple[float, float, float, float]:
+def view(r: Recording, way: np.ndarray) -> tuple[float, float, float, float]:
     """What the map shows: the way with some room, as wide as its axes; x_min, y_min, x_max, y_max [m]."""
-    way = r["position_w"][:, :2]
     (x_min, y_min), (x_max, y_max) = way.min(axis=0), way.max(axis=0)
     room, wide = 2.2 * r.robot.body_length, MAP[0] / MAP[1]
     height = max(y_max - y_min + 3 * room, (x_max - x_min + 2 * room) / wide)
@@ -79,7 +80,7 @@ def draw_ground(ax: Axes, r: Recording, scene: Scene, bounds: tuple[float, float
         bar.ax.set_title("z [m]", fontsize=9, color=INK)
         bar.ax.tick_params(labelsize=9, colors=INK, length=2)
         bar.outline.set_visible(False)
-    obstacles = set(scene.obstacles(r.robot, SEEN_STEP))
+    obstacles = set(scene.obstacles(SEEN_STEP * r.robot.height))
     tallest = max((scene.top(box) for box in scene.boxes if box not in obstacles), default=1.0)
     for box in scene.boxes:
         if box in obstacles:
@@ -96,11 +97,11 @@ def draw_footprints(ax: Axes, r: Recording) -> None:
     ax.scatter(*dots.T, s=7, c=INK, alpha=0.45, linewidths=0, zorder=3)
 
 
-def draw_bodies(ax: Axes, r: Recording) -> None:
+def draw_bodies(ax: Axes, r: Recording, way: np.ndarray) -> None:
     """The outline of the body at even distances, for its size and heading."""
     (cx, cy, _), (hx, hy, _) = r.robot.trunk
     corners = np.array([[cx + sx * hx, cy + sy * hy] for sx, sy in ((1, 1), (-1, 1), (-1, -1), (1, -1))])
-    way, yaw = r["position_w"][:, :2], heading_over_time(r["orientation_wb"])
+    yaw = heading_over_time(shown(r.channel("orientation_wb")))
     gone = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(way, axis=0), axis=1))])
     for tick in np.searchsorted(gone, np.arange(0.0, gone[-1], 2.5 * r.robot.body_length)):
         c, s = np.cos(yaw[tick]), np.sin(yaw[tick])
@@ -109,8 +110,14 @@ def draw_bodies(ax: Axes, r: Recording) -> None:
 
 
 def footprints(r: Recording) -> Iterator[tuple[float, float]]:
-    q, position, orientation = r["q"], r["position_w"], r["orientation_wb"]
-    for tick, leg in touchdowns(r["stance"] > 0.5):
-        foot_b = feet(r.robot, np.ascontiguousarray(q[tick].reshape(-1, 3)))[leg]
-        foot = position[tick] + rotation(np.ascontiguousarray(orientation[tick])) @ foot_b
-        yield float(foot[0]), float(foot[1])
+    """Where the feet came down, as x, y [m]."""
+    channels = [r.channel(name) for name in ("stance", "q", "position_w", "orientation_wb")]
+    for part in parts(len(r)):
+        before = max(0, part.start - 1)
+        stance, q, position, orientation = (channel[before : part.stop] for channel in channels)
+        for tick, leg in touchdowns(stance > 0.5):
+            if tick == 0 and part.start > 0:  # the tick before this part: it was looked at with its own
+                continue
+            foot_b = feet(r.robot, np.ascontiguousarray(q[tick].reshape(-1, 3)))[leg]
+            foot = position[tick] + rotation(np.ascontiguousarray(orientation[tick])) @ foot_b
+            yield float(foot[0]), float(foot[1])

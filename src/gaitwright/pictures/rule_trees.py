@@ -8,7 +8,7 @@ from matplotlib.patches import Rectangle
 
 from gaitwright.knowledge.forest import Situation
 from gaitwright.knowledge.rules import Marks, Rule, status
-from gaitwright.knowledge.trees import Tree
+from gaitwright.knowledge.trees import FeatureTree
 from gaitwright.pictures import Sheet
 from gaitwright.pictures.style import DPI, FAINT, INK, LEFT, WIDTH
 
@@ -26,9 +26,9 @@ FREE, UPPER, LOWER, HERE = "#d3ead9", "#c2255c", "#1b6e35", "#1971c2"
 """Colours: below the lower mark, the marks, the situation."""
 
 
-def layout(trees: Sequence[Tree]) -> list[tuple[list[tuple[Tree, float]], float]]:
+def layout(trees: Sequence[FeatureTree]) -> list[tuple[list[tuple[FeatureTree, float]], float]]:
     """The trees shared out to columns, each with its distance from the top; and each column's height [in]."""
-    columns: list[list[tuple[Tree, float]]] = [[] for _ in range(min(ACROSS, len(trees)))]
+    columns: list[list[tuple[FeatureTree, float]]] = [[] for _ in range(min(ACROSS, len(trees)))]
     heights = [0.0] * len(columns)
     for tree in trees:
         shortest = heights.index(min(heights))
@@ -40,7 +40,7 @@ def layout(trees: Sequence[Tree]) -> list[tuple[list[tuple[Tree, float]], float]
 def draw_trees(
     sheet: Sheet,
     top: float,
-    columns: Sequence[tuple[list[tuple[Tree, float]], float]],
+    columns: Sequence[tuple[list[tuple[FeatureTree, float]], float]],
     rule: Rule,
     situation: Situation | None,
 ) -> None:
@@ -68,7 +68,7 @@ def draw_trees(
             draw_tree(ax, tree, rule.marks_in(tree.name), value if rule.may_fire or value else None)
 
 
-def draw_tree(ax: Axes, tree: Tree, marks: Marks, here: str | None) -> None:
+def draw_tree(ax: Axes, tree: FeatureTree, marks: Marks, here: str | None) -> None:
     """A tree as an indented list, one value a line, with its marks; `here` is the situation's leaf."""
     width = ax.get_xlim()[1]
     name = shortened(tree.name, int(width / CHARACTER))
@@ -100,7 +100,7 @@ def elbow(ax: Axes, above: float, end: tuple[float, float], taken: bool) -> None
     ax.plot((x - 0.14, x - 0.14, x - 0.02), (above + 0.35 * LINE, y, y), solid_joinstyle="miter", **look)
 
 
-def shade(ax: Axes, tree: Tree, marks: Marks) -> None:
+def shade(ax: Axes, tree: FeatureTree, marks: Marks) -> None:
     """The grey area below the upper mark, and in it what is below the lower one."""
     width = ax.get_xlim()[1]
     for mark, colour, hatch in ((marks.upper, "#eceff2", "////"), (marks.lower, FREE, None)):
@@ -115,7 +115,7 @@ def shade(ax: Axes, tree: Tree, marks: Marks) -> None:
         ax.add_patch(box)
 
 
-def lines_below(tree: Tree, mark: str) -> tuple[int, int]:
+def lines_below(tree: FeatureTree, mark: str) -> tuple[int, int]:
     """The place of a mark and one past the last value below it: a branch stands together."""
     first = tree.at(mark)
     below = [k for k, value in enumerate(tree.values) if tree.is_below(value, mark)]

@@ -1,1 +1,1 @@
-"""Torques → Sensed (MuJoCo, Armstrong, replay)."""
+"""MotorCommand → Measured (MuJoCo, Armstrong, replay)."""

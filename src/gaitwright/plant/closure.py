@@ -6,7 +6,7 @@ from jaxtyping import Float
 from gaitwright.dynamics.tree import ball_rotations, ball_tree
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, rotation
-from gaitwright.signals import Sensed, Torques
+from gaitwright.signals import MotorCommand, Sensed
 
 
 class Closure:
@@ -23,11 +23,11 @@ class Closure:
         self.places: list[np.ndarray] = []
         self.wanted: list[np.ndarray] = []
 
-    def add(self, sensed: Sensed, torques: Torques) -> None:
-        """Takes a sensed state and the torques that were then applied."""
+    def add(self, sensed: Sensed, command: MotorCommand) -> None:
+        """Takes a sensed state and the command that was then given."""
         self.places.append(self.centre_of_mass(sensed))
         weight = np.array([0.0, 0.0, -GRAVITY])
-        self.wanted.append(torques.forces_w.sum(axis=0) / self.robot.total_mass + weight)
+        self.wanted.append(command.forces_w.sum(axis=0) / self.robot.total_mass + weight)
 
     def centre_of_mass(self, sensed: Sensed) -> Float[np.ndarray, "3"]:
         """Of the whole robot, world [m]."""

@@ -1,4 +1,4 @@
-"""Torques → Sensed without mechanics: the robot is where its coordinator puts it (thesis, section 6.3).
+"""MotorCommand → Measured without mechanics: the robot is where its coordinator puts it (thesis 6.3).
 
 So the thesis showed joint coordination before it had dynamics: the body takes the pose that is asked for, the
 joints the angles, within their limits. Nothing weighs, slips, lags or falls; what this plant can show is
@@ -15,9 +15,10 @@ from gaitwright.ground.scene import Scene
 from gaitwright.model.kinematics import angles, feet
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, quaternion_of, rotation_vector
+from gaitwright.plant.instruments import specific_force
 from gaitwright.plant.limits import check_force
 from gaitwright.plant.start import start_of
-from gaitwright.signals import MotionTarget, Sensed, Torques
+from gaitwright.signals import Measured, MotorCommand, Posture
 
 TOUCHING = 1e-4
 """A foot no farther over the ground than this share of the robot's height stands on it."""
@@ -34,7 +35,7 @@ class Pose:
 
 @dataclass
 class KinematicPlant:
-    """A robot in a scene that goes where `Torques.follows` says; every `step` is one control period."""
+    """A robot in a scene that goes where `MotorCommand.posture` says; every `step` is one control period."""
 
     robot: Robot
     scene: Scene
@@ -46,21 +47,22 @@ class KinematicPlant:
     def __post_init__(self) -> None:
         self.reset(vary=False)
 
-    def reset(self, seed: int = 0, vary: bool = True) -> Sensed:
+    def reset(self, seed: int = 0, vary: bool = True) -> Measured:
         """The robot on its feet at the scene's start, varied by `seed` where asked (`start_of`)."""
         start = start_of(self.robot, self.scene, seed, vary)
         self.pose, self.ticks = Pose(start.position_w, start.rotation_wb, start.q), 0
+        self.velocity = np.zeros(3)
         return self.sense(self.pose)
 
-    def step(self, torques: Torques) -> Sensed:
-        """One control period on: into the pose that `torques.follows` asks for, or nowhere with motors off.
+    def step(self, command: MotorCommand) -> Measured:
+        """One control period on: into the posture that goes with the command, or nowhere with motors off.
 
         Raises `WrongUse` for torques alone: there is nothing here that they could move.
         """
-        before, asked = self.pose, torques.follows
+        before, asked = self.pose, command.posture
         if asked is not None:
             self.pose = self.placed(asked)
-        elif torques.tau.any():
+        elif command.tau.any():
             raise WrongUse(
                 "plant kinematic has no mechanics that torques could move; drivers kinematic and programmed "
                 "say where the robot goes, other drivers need plant mujoco or armstrong"
@@ -68,7 +70,7 @@ class KinematicPlant:
         self.ticks += 1
         return self.sense(before)
 
-    def placed(self, asked: MotionTarget) -> Pose:
+    def placed(self, asked: Posture) -> Pose:
         """The pose asked for: joints within their limits, the body set down on the feet that are to stand.
 
         Where another foot would then be in the ground, its leg is bent until it is upon it.
@@ -98,7 +100,11 @@ class KinematicPlant:
         if any(force_w):
             raise WrongUse("plant kinematic has no mechanics: a push moves nothing; plant mujoco has")
 
-    def sense(self, before: Pose) -> Sensed:
+    def rearrange(self, scene: Scene) -> None:
+        """Another arrangement of the world from now on; the robot stays as it is."""
+        self.scene = scene
+
+    def sense(self, before: Pose) -> Measured:
         """The state now; velocities are what has moved since `before`, one control period ago.
 
         The feet on the ground share the weight evenly, as if it were carried.
@@ -107,13 +113,17 @@ class KinematicPlant:
         R = pose.rotation_wb
         feet_w = pose.position_w + feet(robot, pose.q) @ R.T
         down = self.gaps(feet_w) <= TOUCHING * robot.height
-        return Sensed(
+        velocity, orientation = (pose.position_w - before.position_w) / dt, quaternion_of(R)
+        felt = specific_force(orientation, velocity, self.velocity, dt)
+        self.velocity = velocity
+        return Measured(
             time=self.ticks * dt,
             position_w=pose.position_w.copy(),
-            orientation_wb=quaternion_of(R),
-            velocity_w=(pose.position_w - before.position_w) / dt,
+            orientation_wb=orientation,
+            velocity_w=velocity,
             angular_velocity_b=np.array(rotation_vector(before.rotation_wb.T @ R)) / dt,
             q=pose.q.copy(),
             qd=(pose.q - before.q) / dt,
             load=robot.total_mass * GRAVITY * down / max(int(down.sum()), 1),
+            specific_force_b=felt,
         )

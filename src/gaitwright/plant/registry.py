@@ -1,32 +1,18 @@
 """A plant by its name: only the one that is asked for is imported."""
 
 from importlib import import_module
-from typing import Protocol, runtime_checkable
 
 from gaitwright.errors import WrongUse, unknown
 from gaitwright.ground.scene import Scene
 from gaitwright.model.robot import Robot
 from gaitwright.plant.names import PLANTS
-from gaitwright.signals import Sensed, Torques
+from gaitwright.stages import SimulatedPlant
 
 HOMES = {
     "mujoco": ("gaitwright.plant.mujoco.simulation", "MujocoPlant"),
     "armstrong": ("gaitwright.plant.armstrong.simulation", "ArmstrongPlant"),
     "kinematic": ("gaitwright.plant.kinematic", "KinematicPlant"),
 }
-
-
-@runtime_checkable
-class SimulatedPlant(Protocol):
-    """Torques → Sensed, in a world that can be set back and pushed."""
-
-    dt: float
-
-    def reset(self, seed: int = 0, vary: bool = True) -> Sensed: ...
-
-    def step(self, torques: Torques) -> Sensed: ...
-
-    def push(self, force_w: tuple[float, float, float]) -> None: ...
 
 
 def make_plant(  # noqa: PLR0913 - the door to every plant; most calls name three of these

@@ -21,14 +21,21 @@ class Start:
     q: Float[np.ndarray, "legs 3"]
 
 
-def start_of(robot: Robot, scene: Scene, seed: int = 0, vary: bool = True) -> Start:
-    """The robot on its feet at the scene's start; `vary` draws the start's small differences from `seed`.
+def start_of(
+    robot: Robot,
+    scene: Scene,
+    seed: int = 0,
+    vary: bool = True,
+    place: tuple[float, float, float] | None = None,
+) -> Start:
+    """The robot on its feet at a place (x, y, yaw), the scene's start where none is given.
 
-    Varied: joint angles by ±0.05 rad, velocity by ±5 % of √(g h), yaw by ±0.1 rad.
+    `vary` draws small differences from `seed`: joint angles by ±0.05 rad, velocity by ±5 % of √(g h), yaw by
+    ±0.1 rad.
     """
     random = np.random.default_rng(seed)
     spread = random.uniform(-1.0, 1.0, size=4 + 3 * robot.n) if vary else np.zeros(4 + 3 * robot.n)
-    x, y, yaw = scene.start
+    x, y, yaw = place or scene.start
     R = upright_rotation(tuple(np.asarray(scene.normal(x, y)).ravel()), yaw + 0.1 * spread[0])
     q, _ = angles(robot, robot.stance)
     q = np.clip(q + 0.05 * spread[4:].reshape(-1, 3), robot.q_min, robot.q_max)

@@ -2,11 +2,14 @@
 
 Topics: `/joint_states` (sensor_msgs/JointState: angles, rates, torques), `/tf` (tf2_msgs/TFMessage: world →
 base → the links of every leg), `/tf_static` (their feet), `/gaitwright/changes` (JSON: skill and driver,
-whenever one changes). Needs the extra `record`.
+whenever one changes), `/gaitwright/scan` (JSON: the ground ahead, whenever it looks different). Needs the
+extra `record`.
 """
 
 import json
-from collections.abc import Iterable
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -17,8 +20,12 @@ from gaitwright.files import whole
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import quaternion_of
 from gaitwright.plant.mujoco.world import JOINTS
+from gaitwright.record.channels import SCAN
 from gaitwright.record.metrics import stretches
+from gaitwright.record.npz import fitting
 from gaitwright.record.recording import Recording
+from gaitwright.record.rows import parts
+from gaitwright.signals import Scan
 
 RATE = 100.0
 """Messages per second of simulated time."""
@@ -67,16 +74,25 @@ CHANGES = {
     "properties": {"time": {"type": "number"}, "skill": {"type": "string"}, "driver": {"type": "string"}},
     "required": ["time", "skill", "driver"],
 }
+FIELDS = tuple(field.name for field in fields(Scan))
+SCANS = {
+    "title": "gaitwright.Scan",
+    "type": "object",
+    "properties": {name: {"type": ["number", "null"]} for name in ("time", *FIELDS)},
+    "required": ["time", *FIELDS],
+}
 
 
 def export_mcap(recording: Recording, path: str | Path) -> Path:
     """Writes the recording as `.mcap`, thinned to 100 Hz; complete or not at all."""
-    with whole(Path(path)) as draft, draft.open("wb") as file, Writer(file) as writer:
-        write_changes(writer, recording.sound())
-        write_states(writer, recording.sound())
+    path, sound = Path(path), recording.sound()
+    with fitting(path), whole(path) as draft, draft.open("wb") as file, Writer(file) as writer:
+        write_changes(writer, sound)
+        write_scans(writer, sound)
+        write_states(writer, sound)
         facts = {"robot": recording.robot.name, "scene": recording.scene, "seed": str(recording.seed)}
         writer.add_metadata("gaitwright", facts | {"stopped_because": recording.stopped_because})
-    return Path(path)
+    return path
 
 
 def write_states(writer: Writer, r: Recording) -> None:
@@ -84,12 +100,10 @@ def write_states(writer: Writer, r: Recording) -> None:
     joint_state = writer.register_msgdef("sensor_msgs/msg/JointState", JOINT_STATE)
     tf_message = writer.register_msgdef("tf2_msgs/msg/TFMessage", TF_MESSAGE)
     names = joint_names(r.robot)
-    channels = [r[name] for name in ("time", "q", "qd", "tau", "position_w", "orientation_wb")]
-    ticks = range(0, len(r), max(1, round(1.0 / (RATE * r.dt))))
     fixed = {"transforms": [transform(0, *frame) for frame in feet_on_shanks(r.robot)]}
-    writer.write_message("/tf_static", tf_message, fixed, nanoseconds(r["time"][0]))
-    for count, tick in enumerate(ticks):
-        time, q, qd, tau, position, orientation = (channel[tick] for channel in channels)
+    writer.write_message("/tf_static", tf_message, fixed, nanoseconds(float(r.at("time", 0))))
+    ticks = thinned(r, "time", "q", "qd", "tau", "position_w", "orientation_wb")
+    for count, (time, q, qd, tau, position, orientation) in enumerate(ticks):
         at = nanoseconds(time)
         header = {"stamp": stamp(at), "frame_id": "world"}
         joints = {"header": header, "name": names, "position": q, "velocity": qd, "effort": tau}
@@ -105,10 +119,35 @@ def write_changes(writer: Writer, r: Recording) -> None:
     schema = raw.register_schema("gaitwright.Changes", "jsonschema", json.dumps(CHANGES).encode())
     channel = raw.register_channel("/gaitwright/changes", "json", schema)
     for start, _ in stretches(r["skill"] * len(r.drivers) + r["driver"]):
-        skill, driver = r.skills[int(r["skill"][start])], r.drivers[int(r["driver"][start])]
-        change = {"time": float(r["time"][start]), "skill": skill, "driver": driver}
-        at = nanoseconds(r["time"][start])
+        skill, driver = r.skills[int(r.at("skill", start))], r.drivers[int(r.at("driver", start))]
+        time = float(r.at("time", start))
+        change, at = {"time": time, "skill": skill, "driver": driver}, nanoseconds(time)
         raw.add_message(channel, at, json.dumps(change).encode(), at)
+
+
+def write_scans(writer: Writer, r: Recording) -> None:
+    """What was seen of the ground ahead, whenever that changes; null for what is out of sight."""
+    raw = writer._writer
+    schema = raw.register_schema("gaitwright.Scan", "jsonschema", json.dumps(SCANS).encode())
+    channel = raw.register_channel("/gaitwright/scan", "json", schema)
+    before: list[float] = []
+    for time, *values in thinned(r, "time", *SCAN):
+        scan = [float(value) for value in values]
+        if scan == before or math.isnan(scan[0]):
+            continue
+        before = scan
+        seen = {
+            name: value if math.isfinite(value) else None for name, value in zip(FIELDS, scan, strict=True)
+        }
+        at = nanoseconds(time)
+        raw.add_message(channel, at, json.dumps({"time": float(time), **seen}).encode(), at)
+
+
+def thinned(r: Recording, *names: str) -> Iterator[tuple[Any, ...]]:
+    """What some channels are, `RATE` times a second."""
+    step, channels = max(1, round(1.0 / (RATE * r.dt))), [r.channel(name) for name in names]
+    for part in parts(len(r)):
+        yield from zip(*(channel[part][-part.start % step :: step] for channel in channels), strict=True)
 
 
 def joint_names(robot: Robot) -> list[str]:

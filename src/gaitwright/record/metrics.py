@@ -1,4 +1,7 @@
-"""The figures of a walk as functions of what was recorded (row E1): arrays in, numbers out."""
+"""The figures of a walk as functions of what was recorded (row E1): series in, numbers out.
+
+They go through a trip a part at a time: one of hours takes a few numbers a tick.
+"""
 
 import hashlib
 import json
@@ -10,6 +13,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from gaitwright.numerics.geometry import GRAVITY
+from gaitwright.record.rows import Series, parts
 
 SETTLED = 5
 """Cycles of a skill that are left out of its velocity error: it has to get up to speed first."""
@@ -53,17 +57,25 @@ class Report:
         return json.dumps(asdict(self), indent=2, ensure_ascii=False)
 
 
-def attitude(orientation_wb: Float[np.ndarray, "ticks 4"]) -> tuple[np.ndarray, np.ndarray]:
+def attitude(orientation_wb: Series) -> tuple[np.ndarray, np.ndarray]:
     """Roll and pitch [rad] over time."""
-    w, x, y, z = orientation_wb.T
-    roll = np.arctan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
-    return roll, np.arcsin(np.clip(2 * (w * y - z * x), -1.0, 1.0))
+    roll, pitch = np.empty(len(orientation_wb)), np.empty(len(orientation_wb))
+    for part in parts(len(roll)):
+        w, x, y, z = orientation_wb[part].T
+        roll[part] = np.arctan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
+        pitch[part] = np.arcsin(np.clip(2 * (w * y - z * x), -1.0, 1.0))
+    return roll, pitch
 
 
-def heading_over_time(orientation_wb: Float[np.ndarray, "ticks 4"]) -> Float[np.ndarray, " ticks"]:
+def heading_over_time(orientation_wb: Series) -> Float[np.ndarray, " ticks"]:
     """Yaw [rad] without jumps."""
-    w, x, y, z = orientation_wb.T
-    return np.unwrap(np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)))
+    yaw = np.empty(len(orientation_wb))
+    for part in parts(len(yaw)):
+        w, x, y, z = orientation_wb[part].T
+        new = np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+        before = yaw[max(0, part.start - 1) : part.start]
+        yaw[part] = np.unwrap(np.concatenate([before, new]))[len(before) :]
+    return yaw
 
 
 def in_heading_frame(
@@ -78,22 +90,17 @@ def in_heading_frame(
 
 
 def command_errors(
-    moved: Float[np.ndarray, "ticks 3"],
-    command: Float[np.ndarray, "ticks 3"],
-    skill: Float[np.ndarray, " ticks"],
-    period: Float[np.ndarray, " ticks"],
-    dt: float,
+    moved: Series, command: Series, skill: Series, period: Series, dt: float
 ) -> tuple[float, float]:
     """RMS of the cycle-averaged velocity error [m/s] and yaw rate error [rad/s].
 
-    Each window is one period of the skill in use; the first `SETTLED` cycles of every skill are left out,
-    and so is standing.
+    `moved` and `command`: forward, left [m/s], yaw rate [rad/s]. Each window is one period of the skill in
+    use; the first `SETTLED` cycles of every skill are left out, and so is standing.
     """
-    error = np.concatenate([np.zeros((1, 3)), np.cumsum(moved - command, axis=0)])
-    moving = np.abs(command).sum(axis=1) > 1e-6
+    error, moving = summed(moved, command), moves(command)
     velocity, yaw = [], []
     for start, end in stretches(skill):
-        window = max(1, round(period[start] / dt))
+        window = max(1, round(float(period[start : start + 1][0]) / dt))
         first = np.arange(start + SETTLED * window, end - window + 1, max(1, window // 4))
         first = first[moving[first]] if len(first) else first
         mean = (error[first + window] - error[first]) / window
@@ -102,36 +109,59 @@ def command_errors(
     return root_mean(velocity), root_mean(yaw)
 
 
+def summed(moved: Series, command: Series) -> np.ndarray:
+    """The sum of all errors before each tick and, last, of all; `(ticks + 1, 3)`."""
+    out = np.zeros((len(command) + 1, 3))
+    for part in parts(len(command)):
+        error = moved[part] - command[part]
+        error[0] += out[part.start]
+        np.cumsum(error, axis=0, out=out[part.start + 1 : part.stop + 1])
+    return out
+
+
+def moves(command: Series) -> np.ndarray:
+    """Whether a velocity is asked for, at each tick."""
+    out = np.empty(len(command), dtype=bool)
+    for part in parts(len(command)):
+        out[part] = np.abs(command[part]).sum(axis=1) > 1e-6
+    return out
+
+
 def root_mean(squares: list[np.ndarray]) -> float:
     """Root of the mean of all squares; nothing where there are none."""
     together = np.concatenate([*squares, np.empty(0)])
     return float(np.sqrt(together.mean())) if len(together) else 0.0
 
 
-def stretches(labels: np.ndarray) -> list[tuple[int, int]]:
+def stretches(labels: Series) -> list[tuple[int, int]]:
     """Where a label stays the same: (start, end) of each stretch."""
-    edges = np.flatnonzero(np.diff(labels)) + 1
-    bounds = [0, *edges.tolist(), len(labels)]
-    return list(pairwise(bounds))
+    bounds = [0]
+    for part in parts(len(labels)):
+        edges = np.flatnonzero(np.diff(labels[part.start : part.stop + 1])) + part.start + 1
+        bounds.extend(edges.tolist())
+    return list(pairwise([*bounds, len(labels)]))
 
 
-def travelled(position_w: Float[np.ndarray, "ticks 3"]) -> float:
+def travelled(position_w: Series) -> float:
     """Length of the way over ground [m]."""
-    return float(np.linalg.norm(np.diff(position_w[:, :2], axis=0), axis=1).sum())
+    return sum(
+        float(np.linalg.norm(np.diff(position_w[part.start : part.stop + 1][:, :2], axis=0), axis=1).sum())
+        for part in parts(len(position_w))
+    )
 
 
-def joint_work(tau: np.ndarray, qd: np.ndarray, dt: float) -> float:
+def joint_work(tau: Series, qd: Series, dt: float) -> float:
     """∫ Σ|τ q̇| dt [J]."""
-    return float(np.abs(tau * qd).sum() * dt)
+    return sum(float(np.abs(tau[part] * qd[part]).sum() * dt) for part in parts(len(tau)))
 
 
-def tick_times(
-    took: Float[np.ndarray, "ticks 2"], driver: Float[np.ndarray, " ticks"], names: Iterable[str]
-) -> dict[str, dict[str, float]]:
+def tick_times(took: Series, driver: Series, names: Iterable[str]) -> dict[str, dict[str, float]]:
     """Median and 99th percentile [µs] of the whole lap and of each driver's controller."""
-    out = {"lap": middle_and_tail(took[:, 0])}
+    every = list(parts(len(took)))
+    out = {"lap": middle_and_tail(np.concatenate([took[part][:, 0] for part in every]))}
     for number, name in enumerate(names):
-        out[name] = middle_and_tail(took[driver == number, 1])
+        own = np.concatenate([took[part][driver[part] == number, 1] for part in every])
+        out[name] = middle_and_tail(own)
     return out
 
 
@@ -160,11 +190,12 @@ def uprightness(fell: bool, roll_std: float, pitch_std: float) -> float:
     return 0.0 if fell else float(np.exp(-(roll_std + pitch_std) / np.radians(10)))
 
 
-def digest(arrays: Iterable[np.ndarray]) -> str:
+def digest(arrays: Iterable[Series]) -> str:
     """SHA-256 over the bits of some arrays."""
     sha = hashlib.sha256()
     for array in arrays:
-        sha.update(np.ascontiguousarray(array).tobytes())
+        for part in parts(len(array)):
+            sha.update(np.ascontiguousarray(array[part]).tobytes())
     return sha.hexdigest()
 
 

@@ -1,61 +1,34 @@
 """Laps ↔ file: every lap of a trip as arrays, and its report (row E1)."""
 
 import json
-import zipfile
-from collections.abc import Callable
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.description.load import robot_of
-from gaitwright.errors import BadFile
-from gaitwright.files import whole
-from gaitwright.locomotion import Brain, Lap, Plant, trip
-from gaitwright.model.robot import Robot
+from gaitwright.errors import NoRoom
+from gaitwright.locomotion import Lap
+from gaitwright.model.robot import Robot, lists_of, robot_of
 from gaitwright.numerics.geometry import GRAVITY
 from gaitwright.record import metrics as figures
+from gaitwright.record.channels import SITUATION, STATE, Packer, always, columns_of, widths
 from gaitwright.record.metrics import Report
-from gaitwright.signals import Mission
+from gaitwright.record.npz import opened, read_blocks, read_header, write_npz
+from gaitwright.record.rows import BLOCK, Lazy, Table, Writer, filled, parts
 
 INTERRUPTED = "interrupted"
 """`stopped_because` of a trip that was cut off by the user."""
 
 
-def widths(legs: int) -> dict[str, int]:
-    """The channels of a recording and how many numbers each has."""
-    return {
-        "time": 1,
-        "position_w": 3,
-        "orientation_wb": 4,
-        "velocity_w": 3,
-        "angular_velocity_b": 3,
-        "q": 3 * legs,
-        "qd": 3 * legs,
-        "load": legs,
-        "tau": 3 * legs,
-        "forces_w": 3 * legs,
-        "stance": legs,
-        "residual": 1,
-        "phase": 1,
-        "command": 3,
-        "target_w": 3,
-        "skill": 1,
-        "driver": 1,
-        "period": 1,
-        "took": 2,
-    }
-
-
-STATE = ("time", "position_w", "orientation_wb", "velocity_w", "angular_velocity_b", "q", "qd", "load", "tau")
-"""The channels that `state_hash` covers."""
-
-
 @dataclass(frozen=True, eq=False)
 class Recording:
-    """Every lap of a trip as arrays, one row per tick."""
+    """Every lap of a trip as arrays, one row per tick.
+
+    `recording[channel]` is a whole channel in memory. `recording.channel(channel)[ticks]` reads only those
+    ticks of it, which is how to go through a trip of hours.
+    """
 
     robot: Robot
     scene: str
@@ -64,7 +37,8 @@ class Recording:
     skills: tuple[str, ...]
     """Names that the numbers in channel `skill` stand for."""
     drivers: tuple[str, ...]
-    data: Float[np.ndarray, "ticks width"]
+    data: Float[np.ndarray, "ticks width"] | Table
+    """All numbers, in the order of `channels.widths`; those of a long trip are in a file."""
     arrived: bool
     fell: bool
     stopped_because: str
@@ -75,13 +49,21 @@ class Recording:
 
     def __getitem__(self, channel: str) -> np.ndarray:
         """A channel `(ticks, width)`; those of one number are `(ticks,)`."""
-        start = 0
-        for name, width in widths(self.robot.n).items():
-            if name == channel:
-                block = self.data[:, start : start + width]
-                return block[:, 0] if width == 1 else block
-            start += width
-        raise KeyError(f"no channel {channel!r}; there is: {', '.join(widths(self.robot.n))}")
+        return self.channel(channel)[:]
+
+    def channel(self, channel: str) -> Lazy:
+        """A channel of which only those ticks are read that are taken."""
+        places = columns_of(self.robot.n)
+        if channel not in places:
+            raise KeyError(f"no channel {channel!r}; there is: {', '.join(places)}")
+        place = places[channel]
+        if place.stop - place.start == 1:
+            return Lazy(len(self), lambda ticks: self.data[ticks, place][:, 0])
+        return Lazy(len(self), lambda ticks: self.data[ticks, place])
+
+    def at(self, channel: str, tick: int) -> np.ndarray:
+        """The numbers of a channel at a tick, counted from the start."""
+        return np.array(self.channel(channel)[tick : tick + 1][0])
 
     @property
     def done(self) -> bool:
@@ -90,28 +72,49 @@ class Recording:
 
     def moved(self) -> Float[np.ndarray, "ticks 3"]:
         """Velocity forward and left [m/s] and yaw rate [rad/s], in the heading frame."""
-        return figures.in_heading_frame(self["orientation_wb"], self["velocity_w"], self.dt)
+        return filled(self.motion())
+
+    def motion(self) -> Lazy:
+        """As `moved`, worked out for the ticks that are taken."""
+        orientation, velocity = self.channel("orientation_wb"), self.channel("velocity_w")
+
+        def of(ticks: slice) -> np.ndarray:
+            first = max(0, ticks.start - 1)  # rates need a tick on both sides
+            seen = slice(first, ticks.stop + 1)
+            moved = figures.in_heading_frame(orientation[seen], velocity[seen], self.dt)
+            return moved[ticks.start - first : ticks.stop - first]
+
+        return Lazy(len(self), of)
 
     def sound(self) -> "Recording":
         """The part in which every number is one: what figures are made of when a simulation blew up."""
+        numbers = slice(0, always(self.robot.n))
+        small = parts(len(self), BLOCK)
         with np.errstate(invalid="ignore"):
-            return replace(self, data=self.data[(np.abs(self.data) < 1e12).all(axis=1)])
+            good = [(np.abs(self.data[part, numbers]) < 1e12).all(axis=1) for part in small]
+        if all(kept.all() for kept in good):
+            return self
+        writer = Writer(self.data.shape[1])
+        for part, kept in zip(parts(len(self), BLOCK), good, strict=True):
+            writer.extend(self.data[part, :][kept])
+        return replace(self, data=writer.table())
 
     def report(self) -> Report:
         """The figures of this trip; it must have a tick."""
-        state_hash = figures.digest(self[name] for name in STATE)
+        state_hash = figures.digest(self.channel(name) for name in STATE)
         return self.sound().figures(state_hash)
 
     def figures(self, state_hash: str) -> Report:
         """The figures where every number is one."""
-        time = self["time"]
-        duration, distance = float(time[-1] - time[0]), figures.travelled(self["position_w"])
-        roll, pitch = (float(angle.std()) for angle in figures.attitude(self["orientation_wb"]))
+        duration = float(self.at("time", len(self) - 1) - self.at("time", 0))
+        distance = figures.travelled(self.channel("position_w"))
+        roll, pitch = (float(angle.std()) for angle in figures.attitude(self.channel("orientation_wb")))
+        skill, driver = self.channel("skill"), self["driver"]
         error, yaw_error = figures.command_errors(
-            self.moved(), self["command"], self["skill"], self["period"], self.dt
+            self.motion(), self.channel("command"), skill, self.channel("period"), self.dt
         )
         weight = self.robot.total_mass * GRAVITY
-        work = figures.joint_work(self["tau"], self["qd"], self.dt)
+        work = figures.joint_work(self.channel("tau"), self.channel("qd"), self.dt)
         cost = work / (weight * distance) if distance > 0.1 * self.robot.body_length else 0.0
         upright = figures.uprightness(self.fell, roll, pitch)
         return Report(
@@ -127,9 +130,9 @@ class Recording:
             cost_of_transport=cost,
             roll_std_rad=roll,
             pitch_std_rad=pitch,
-            driver_share={name: float((self["driver"] == i).mean()) for i, name in enumerate(self.drivers)},
-            tick_us=figures.tick_times(self["took"], self["driver"], self.drivers),
-            skills=[self.skills[int(self["skill"][start])] for start, _ in figures.stretches(self["skill"])],
+            driver_share={name: float((driver == i).mean()) for i, name in enumerate(self.drivers)},
+            tick_us=figures.tick_times(self.channel("took"), driver, self.drivers),
+            skills=[self.skills[int(self.at("skill", start))] for start, _ in figures.stretches(skill)],
             desirability=figures.desirability(upright, error, self.done, cost, self.robot.height),
             stopped_because=self.stopped_because,
             seed=self.seed,
@@ -138,20 +141,14 @@ class Recording:
 
     def save(self, path: str | Path) -> Path:
         """Writes the recording as one `.npz` (arrays and a JSON header, no pickle), whole or not at all."""
-        header = np.frombuffer(json.dumps(self.header()).encode(), dtype=np.uint8)
-        arrays = {name: self[name] for name in widths(self.robot.n)}
-        with whole(Path(path)) as draft, draft.open("wb") as file:
-            np.savez_compressed(file, allow_pickle=False, header=header, **arrays)
+        channels = {name: self.channel(name) for name in widths(self.robot.n)}
+        write_npz(Path(path), json.dumps(self.header()).encode(), channels)
         return Path(path)
 
     def header(self) -> dict[str, Any]:
         """All but the arrays, as plain JSON values."""
-        robot = {field.name: getattr(self.robot, field.name) for field in fields(Robot)}
-        plain = {
-            name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in robot.items()
-        }
         own = {name: getattr(self, name) for name in HEADER}
-        return own | {"robot": plain}
+        return own | {"robot": lists_of(self.robot)}
 
 
 HEADER = ("scene", "seed", "dt", "skills", "drivers", "arrived", "fell", "stopped_because")
@@ -159,49 +156,23 @@ HEADER = ("scene", "seed", "dt", "skills", "drivers", "arrived", "fell", "stoppe
 
 
 class Recorder:
-    """Collects laps in one growing array."""
+    """Collects laps; what is old goes to a file as a trip grows long."""
 
     def __init__(self, robot: Robot, scene: str, seed: int, dt: float) -> None:
         self.robot, self.scene, self.seed, self.dt = robot, scene, seed, dt
-        self.width = sum(widths(robot.n).values())
-        self.rows = np.empty((4096, self.width))
-        self.count = 0
-        self.skills: dict[str, int] = {}
-        self.drivers: dict[str, int] = {}
+        self.packer = Packer(robot.n)
+        self.writer = Writer(sum(widths(robot.n).values()))
         self.last: Lap | None = None
+        self.no_room: str | None = None
 
     def add(self, lap: Lap) -> None:
-        """Takes one lap."""
-        if self.count == len(self.rows):
-            self.rows = np.concatenate([self.rows, np.empty_like(self.rows)])
-        s, t, u = lap.sensed, lap.target, lap.torques
-        numbers = (
-            self.skills.setdefault(lap.call.skill, len(self.skills)),
-            self.drivers.setdefault(lap.call.driver, len(self.drivers)),
-            lap.call.gait.period,
-            *lap.took,
-        )
-        # In the order of `widths`.
-        pieces = (
-            (s.time,),
-            s.position_w,
-            s.orientation_wb,
-            s.velocity_w,
-            s.angular_velocity_b,
-            s.q.ravel(),
-            s.qd.ravel(),
-            s.load,
-            u.tau.ravel(),
-            u.forces_w.ravel(),
-            t.stance,
-            (u.residual, t.phase),
-            t.command,
-            t.position_w,
-            numbers,
-        )
-        np.concatenate(pieces, out=self.rows[self.count])
-        self.count += 1
+        """Takes one lap. Raises `NoRoom` where the disk is full: the trip has to end, and nothing is lost."""
         self.last = lap
+        try:
+            self.writer.add(self.packer.row(lap))
+        except NoRoom as error:
+            self.no_room = str(error)
+            raise
 
     def finish(self) -> Recording:
         """The recording of what was taken so far."""
@@ -211,65 +182,26 @@ class Recorder:
             self.scene,
             self.seed,
             self.dt,
-            tuple(self.skills),
-            tuple(self.drivers),
-            self.rows[: self.count].copy(),
+            tuple(self.packer.skills),
+            tuple(self.packer.drivers),
+            self.writer.table(),
             arrived=last is not None and last.arrived,
             fell=last is not None and last.fell,
-            stopped_because=(last.stopped_because if last else None) or INTERRUPTED,
+            stopped_because=(last.stopped_because if last else None) or self.no_room or INTERRUPTED,
         )
-
-
-def walk(  # noqa: PLR0913 - the door to everything; most calls name three of these
-    brain: Brain,
-    plant: Plant,
-    mission: Mission,
-    seconds: float = 60.0,
-    seed: int = 0,
-    vary: bool = True,
-    scene: str = "",
-    watch: Callable[[Lap], None] | None = None,
-) -> Recording:
-    """Takes a robot through a mission; an interrupt (Ctrl-C) keeps what was recorded.
-
-    `watch`, where given, is called with every lap.
-    """
-    recorder = Recorder(brain.robot, scene, seed, plant.dt)
-    try:
-        for lap in trip(brain, plant, mission, seconds, seed, vary):
-            recorder.add(lap)
-            if watch is not None:
-                watch(lap)
-    except KeyboardInterrupt:
-        pass
-    return recorder.finish()
 
 
 # --- files ------------------------------------------------------------------------------------------
 def load(path: str | Path) -> Recording:
     """The recording in a file. Raises `BadFile` where the file is not one."""
-    arrays = read_arrays(Path(path))
-    try:
-        return recording_of(arrays)
-    except (KeyError, TypeError, ValueError) as error:
-        raise BadFile(f"{path} is not a recording: {error}") from error
-
-
-def read_arrays(path: Path) -> dict[str, np.ndarray]:
-    """What an `.npz` holds. Raises `BadFile`."""
-    try:
-        with np.load(path, allow_pickle=False) as file:
-            return {name: file[name] for name in file.files}
-    except (OSError, ValueError, EOFError, AttributeError, zipfile.BadZipFile) as error:
-        raise BadFile(f"{path} is not a recording: {error}") from error
-
-
-def recording_of(arrays: dict[str, np.ndarray]) -> Recording:
-    """A recording from the arrays that `Recording.save` wrote."""
-    header = json.loads(arrays["header"].tobytes())
-    robot = robot_of(header["robot"])
-    columns = [arrays[name].reshape(-1, width) for name, width in widths(robot.n).items()]
-    own: dict[str, Any] = {
-        name: tuple(header[name]) if name in ("skills", "drivers") else header[name] for name in HEADER
-    }
-    return Recording(robot=robot, data=np.concatenate(columns, axis=1, dtype=np.float64), **own)
+    with opened(Path(path)) as archive:
+        header = json.loads(read_header(archive))
+        robot = robot_of(header["robot"])
+        own: dict[str, Any] = {
+            name: tuple(header[name]) if name in ("skills", "drivers") else header[name] for name in HEADER
+        }
+        channels = widths(robot.n)
+        writer = Writer(sum(channels.values()))
+        for block in read_blocks(archive, channels, optional=SITUATION):
+            writer.extend(block)
+        return Recording(robot=robot, data=writer.table(), **own)

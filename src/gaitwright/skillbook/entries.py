@@ -118,9 +118,9 @@ def checked(entry: Any, kind: type[T]) -> T:
         raise WrongUse(f"a skillbook cannot hold this: {error}") from None
 
 
-def rulebook_entry(book: Rulebook) -> BookEntry:
+def rulebook_entry(rulebook: Rulebook) -> BookEntry:
     """A rulebook, checked against the limits of a file."""
-    return checked(to_plain(book), BookEntry)
+    return checked(to_plain(rulebook), BookEntry)
 
 
 def event_entries(events: tuple[Event, ...]) -> tuple[EventEntry, ...]:

@@ -38,7 +38,7 @@ class Ancestor:
     digest: str
 
 
-def settled(lesson: Lesson, lessons: int) -> Lesson:
+def number_lesson(lesson: Lesson, lessons: int) -> Lesson:
     """A lesson as a file keeps it: numbered, and without measurements that are not finite."""
     name = lesson.id or f"lesson {lessons + 1}"
     kept = Instance(name, lesson.kind, lesson.situation, lesson.raw).raw
@@ -47,28 +47,28 @@ def settled(lesson: Lesson, lessons: int) -> Lesson:
 
 def replayed(steps: Iterable[Step]) -> Rulebook:
     """The rulebook that the steps make when they are taken again. Raises `WrongUse` where they cannot be."""
-    book: Rulebook | None = None
+    rulebook: Rulebook | None = None
     trouble: Inconsistency | None = None
     for step in steps:
         if step.rulebook is not None:
-            events = (*(book.events if book else ()), *step.events)
-            book, trouble = replace(step.rulebook, events=events), None
-        elif book is None or step.lesson is None:
+            events = (*(rulebook.events if rulebook else ()), *step.events)
+            rulebook, trouble = replace(step.rulebook, events=events), None
+        elif rulebook is None or step.lesson is None:
             raise WrongUse(f"a history begins with a rulebook, and a step {step.how!r} has a lesson")
         else:
-            book, trouble = taken(book, step.how, step.lesson, trouble)
-    if book is None:
+            rulebook, trouble = take_lesson(rulebook, step.how, step.lesson, trouble)
+    if rulebook is None:
         raise WrongUse("a history has at least the step that began it")
-    return book
+    return rulebook
 
 
-def taken(
-    book: Rulebook, how: How, lesson: Lesson, trouble: Inconsistency | None
+def take_lesson(
+    rulebook: Rulebook, how: How, lesson: Lesson, trouble: Inconsistency | None
 ) -> tuple[Rulebook, Inconsistency | None]:
     """The rulebook after one lesson, and the contradiction that it ended in."""
     if how == "mended":
         if trouble is None:
             raise WrongUse(f"{lesson.id} was mended, but nothing contradicted it")
-        return mend(book, trouble, lesson.blame).book, None
-    learned = teach(book, lesson) if how == "taught" else learn(book, lesson)
-    return learned.book, learned.trouble
+        return mend(rulebook, trouble, lesson.blame).rulebook, None
+    learned = teach(rulebook, lesson) if how == "taught" else learn(rulebook, lesson)
+    return learned.rulebook, learned.trouble

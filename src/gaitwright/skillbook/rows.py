@@ -82,10 +82,10 @@ def change(db: sqlite3.Connection, before: Rulebook | None, after: Rulebook) -> 
     put(db, {key: content for key, content in now.items() if was.get(key) != content})
 
 
-def state_rows(book: Rulebook, names: set[str]) -> Rows:
+def state_rows(rulebook: Rulebook, names: set[str]) -> Rows:
     """The rows of a rulebook's trees, wishes, and of the rules named."""
-    places = [k for k, rule in enumerate(book.rules) if rule.name in names]
-    part = replace(book, rules=tuple(book.rules[k] for k in places), events=())
+    places = [k for k, rule in enumerate(rulebook.rules) if rule.name in names]
+    part = replace(rulebook, rules=tuple(rulebook.rules[k] for k in places), events=())
     return book_rows(rulebook_entry(part), places)
 
 

@@ -74,7 +74,7 @@ def at_rest(path: Path) -> Iterator[None]:
         yield
         return
     with sentences(path):
-        db = held(path, beside)
+        db = lock_file(path, beside)
     if db is not None and os.name == "nt":  # which replaces no file that is open
         db.close()
     try:
@@ -84,7 +84,7 @@ def at_rest(path: Path) -> Iterator[None]:
             db.close()
 
 
-def held(path: Path, beside: Sequence[Path]) -> sqlite3.Connection | None:
+def lock_file(path: Path, beside: Sequence[Path]) -> sqlite3.Connection | None:
     """A connection that keeps others out, with all that a log held in the file; `None` where the file is no
     SQLite file, or a damaged one: it may go, but a log beside it may not."""
     db = None

@@ -7,16 +7,14 @@ from pathlib import Path
 from typing import Literal
 
 from gaitwright.errors import BadFile, WrongUse
-from gaitwright.knowledge.correction import teach
 from gaitwright.knowledge.json_form import MAX_EVENTS
 from gaitwright.knowledge.modifier import Learned, Lesson
-from gaitwright.knowledge.repair import mend
 from gaitwright.knowledge.restructure import Mended
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.skillbook import rows
 from gaitwright.skillbook.book import Skillbook, about_of, book_of
 from gaitwright.skillbook.entries import encoded, event_entries, rulebook_entry, step_entry
-from gaitwright.skillbook.history import Step, settled
+from gaitwright.skillbook.history import Step, number_lesson
 from gaitwright.skillbook.schema import MAX_BYTES, connected, located, migrate, number, sentences, version_of
 
 PATIENCE = 2000
@@ -63,27 +61,13 @@ class Ledger:
             raise WrongUse("a step is mended right after one that ended in a contradiction")
         if how == "mended" and last.lesson is not None:
             lesson = replace(lesson, id=lesson.id or last.lesson.id)
-        lesson = settled(lesson, self.book.rulebook.lessons)
-        return self._append(Step(how, lesson, None, note), learned.book)
+        lesson = number_lesson(lesson, self.book.rulebook.lessons)
+        return self._append(Step(how, lesson, None, note), learned.rulebook)
 
     def edit(self, rulebook: Rulebook, note: str) -> Skillbook:
         """Stores a rulebook that was changed in another way than by a lesson, and says which."""
         rulebook_entry(rulebook)
         return self._append(Step("edited", None, replace(rulebook, events=()), note), rulebook)
-
-    def teach(self, lesson: Lesson) -> Learned:
-        """Teaches and records."""
-        learned = teach(self.book.rulebook, lesson)
-        self.record(lesson, learned)
-        return learned
-
-    def mend(self, lesson: Lesson, learned: Learned) -> Mended:
-        """Mends the contradiction that a lesson just recorded ended in, and records that."""
-        if learned.trouble is None:
-            raise WrongUse("nothing contradicted the lesson: there is nothing to mend")
-        mended = mend(self.book.rulebook, learned.trouble, lesson.blame)
-        self.record(lesson, mended, "mended")
-        return mended
 
     def close(self) -> None:
         """Leaves one file without a log beside it, unless someone is reading it now."""

@@ -16,6 +16,7 @@ from gaitwright.skills.library import (
     skill_names,
     speed_scale,
 )
+from gaitwright.stages import Map, Now
 
 TURN_FIRST = math.radians(40)
 """Farther off the path than this, the robot turns on the spot before it goes on."""
@@ -24,12 +25,12 @@ KEEP_TURNING = math.radians(15)
 
 
 @dataclass(frozen=True)
-class PlainChooser:
+class DefaultChooser:
     """Chooses among the skills of one robot by a few plain rules."""
 
     robot: Robot
 
-    def choose(self, route: Route, sensed: Sensed, now: SkillCall | None = None) -> SkillCall:
+    def choose(self, route: Route, sensed: Sensed, now: Now = None, ground: Map = None) -> SkillCall:
         """The skill for what lies ahead; `now` is the one in use."""
         if route.arrived or not route.path:
             return self.call("stand", route, because=route.no_way or "at the goal")
@@ -66,22 +67,22 @@ class PlainChooser:
         self, name: str, route: Route, forward: float = 0.0, turn: float = 0.0, because: str = ""
     ) -> SkillCall:
         gait = gait_of(find_skill(name, self.robot), self.robot)
-        return SkillCall(name, gait, (forward, 0.0), turn, route.driver, because)
+        return SkillCall(name, gait, (forward, 0.0), turn, because=because)
 
 
 @dataclass(frozen=True)
-class Fixed:
+class HeldSkill:
     """A chooser that holds one skill: what `gaitwright skill` runs."""
 
     skill_call: SkillCall
 
-    def choose(self, route: Route, sensed: Sensed, now: SkillCall | None = None) -> SkillCall:
+    def choose(self, route: Route, sensed: Sensed, now: Now = None, ground: Map = None) -> SkillCall:
         return self.skill_call
 
 
 def fixed_skill(
     robot: Robot, name: str, speed: float | None, lateral: float, turn: float | None, driver: str
-) -> Fixed:
+) -> HeldSkill:
     """One skill at one velocity [m/s, rad/s]; `None` takes what the skill is meant for.
 
     `speed` is along the skill's own way; `lateral`, to the left, comes on top.
@@ -93,4 +94,4 @@ def fixed_skill(
     velocity = (forward, left + lateral)
     check_speed(skill, robot, math.hypot(*velocity))
     turn = rate if turn is None else turn
-    return Fixed(SkillCall(skill.name, gait_of(skill, robot), velocity, turn, driver, "asked for"))
+    return HeldSkill(SkillCall(skill.name, gait_of(skill, robot), velocity, turn, driver, "asked for"))

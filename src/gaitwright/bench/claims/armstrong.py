@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from gaitwright.bench.claims.walks import Walk, measure_walks
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.measurement import Figure, Wanted, at_most
 from gaitwright.description.load import load_robot
 from gaitwright.dynamics.tree import Tree, ball_tree
@@ -39,20 +39,20 @@ NOTE = (
 )
 
 
-def measure(session: Session) -> Iterator[Figure]:
+def measure(context: Context) -> Iterator[Figure]:
     """Drift of every integrator, what old coefficients cost, and walks on the plant."""
-    session.voice.say("armstrong: free motion")
+    context.voice.say("armstrong: free motion")
     tree, _ = ball_tree(load_robot("thesis"))
     for integrator, wanted in WANTED.items():
         for dt in STEPS:
-            energy, momentum = drift(tree, integrator, dt, wanted if dt == STEPS[0] else None, session.seed)
+            energy, momentum = drift(tree, integrator, dt, wanted if dt == STEPS[0] else None, context.seed)
             yield energy
             if integrator == "rk4" and dt == STEPS[0]:
                 yield momentum
     for refresh in REFRESH:
-        angle = refresh_error(tree, refresh, seed=session.seed)
+        angle = refresh_error(tree, refresh, seed=context.seed)
         yield Figure(f"slow coefficients at every {refresh}. step: angle after 1 s", angle, "rad")
-    yield from measure_walks(session, WALKS)
+    yield from measure_walks(context, WALKS)
 
 
 def drift(tree: Tree, integrator: str, dt: float, wanted: Wanted | None, seed: int) -> tuple[Figure, Figure]:

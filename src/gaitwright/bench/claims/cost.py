@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.measurement import Figure
 from gaitwright.bench.trial import Trial, robot_named
 from gaitwright.skills.library import LIBRARY, fastest
@@ -22,13 +22,13 @@ HELD = 0.85
 Curve = list[tuple[float, float]]
 
 
-def measure(session: Session) -> Iterator[Figure]:
+def measure(context: Context) -> Iterator[Figure]:
     """The cheapest speed of every gait, the gait that is cheapest at round speeds, and the picture."""
     robot, curves = robot_named("go2"), {}
     for gait in GAITS:
         most = fastest(LIBRARY[gait], robot)
-        speeds = np.linspace(SLOWEST, most, 3 if session.quick else SPEEDS)
-        curves[gait] = curve(session, gait, speeds)
+        speeds = np.linspace(SLOWEST, most, 3 if context.quick else SPEEDS)
+        curves[gait] = curve(context, gait, speeds)
     note = picture(curves)
     for gait, points in curves.items():
         if points:
@@ -40,13 +40,13 @@ def measure(session: Session) -> Iterator[Figure]:
     yield Figure("gaits that are the cheapest at some speed", float(len(turns)), "", None, STARTS, told)
 
 
-def curve(session: Session, gait: str, speeds: np.ndarray) -> Curve:
+def curve(context: Context, gait: str, speeds: np.ndarray) -> Curve:
     """Speed held and cost at every speed at which all starts go well."""
     points = []
-    seeds = session.seeds(STARTS, quick=1)
+    seeds = context.seeds(STARTS, quick=1)
     for speed in speeds.tolist():
         trials = [Trial("go2", "flat", SECONDS, seed, gait, speed) for seed in seeds]
-        outcomes = session.outcomes(f"cost of {gait} at {speed:.2f} m/s", trials)
+        outcomes = context.outcomes(f"cost of {gait} at {speed:.2f} m/s", trials)
         if all(o.kept_up and o.held > HELD for o in outcomes):
             points.append((speed, sum(o.report.cost_of_transport for o in outcomes) / len(outcomes)))
     return points

@@ -7,7 +7,7 @@ from time import perf_counter_ns
 
 import numpy as np
 
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.evidence.dynamics_agreement import (
     any_state,
     armstrong_agreement,
@@ -36,25 +36,25 @@ NOTE = (
 Calls = Mapping[str, Callable[[], object]]
 
 
-def measure(session: Session) -> Iterator[Figure]:
+def measure(context: Context) -> Iterator[Figure]:
     """Ratios of times, growth with the number of legs, and agreement on random states."""
     pin = pinocchio()
-    rounds = QUICK_ROUNDS if session.quick else ROUNDS
+    rounds = QUICK_ROUNDS if context.quick else ROUNDS
     go2, thesis = load_robot("go2"), load_robot("thesis")
-    session.voice.say("dynamics: timing")
+    context.voice.say("dynamics: timing")
     yield from inverse(pin, go2, rounds)
     yield from direct(pin, thesis, rounds)
     yield growth(rounds)
-    session.voice.say("dynamics: comparing answers")
+    context.voice.say("dynamics: comparing answers")
     robots = (go2, thesis, load_robot("hexapod"))
     for robot in robots:
-        yield closed_form_agreement(robot, session.seed)
+        yield closed_form_agreement(robot, context.seed)
     if pin is None:
         return
     for robot in robots:
-        yield inverse_agreement(pin, robot, session.seed)
-    yield direct_agreement(pin, go2, session.seed)
-    yield from armstrong_agreement(pin, thesis, session.seed)
+        yield inverse_agreement(pin, robot, context.seed)
+    yield direct_agreement(pin, go2, context.seed)
+    yield from armstrong_agreement(pin, thesis, context.seed)
 
 
 def inverse(pin, robot: Robot, rounds: int) -> Iterator[Figure]:

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from gaitwright.bench.claims.walks import Walk, measure_walks
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.measurement import Figure
 
 SCENES = ("slope:15", "slope:-15", "rough:0.05")
@@ -16,6 +16,6 @@ WALKS = tuple(
 """The seed of a start draws the rough ground as well."""
 
 
-def measure(session: Session) -> Iterator[Figure]:
+def measure(context: Context) -> Iterator[Figure]:
     """The figures of walks on uneven ground."""
-    return measure_walks(session, WALKS)
+    return measure_walks(context, WALKS)

@@ -34,10 +34,10 @@ def force_jumps(
 
 def followed(controller: NumericalController, moments: Sequence[Moment]) -> Float[np.ndarray, "ticks legs 3"]:
     """Foot forces over the motion [N], every tick from the last one's."""
-    previous, out = moments[0].previous, []
+    memory, out = moments[0].memory, []
     for moment in moments:
-        previous = controller.torques(moment.target, moment.sensed, previous)
-        out.append(previous.forces_w)
+        command, memory = controller.command(moment.target, moment.sensed, memory)
+        out.append(command.forces_w)
     return np.array(out)
 
 

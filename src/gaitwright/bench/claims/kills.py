@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.evidence.children import ChildFailed
 from gaitwright.bench.evidence.learner import LESSONS, begun, lesson_of, taught
 from gaitwright.bench.measurement import Figure, at_most, count
@@ -40,22 +40,22 @@ class Tally:
     first: str = ""
 
 
-def measure(session: Session) -> Iterator[Figure]:
+def measure(context: Context) -> Iterator[Figure]:
     """Kills, figures of what they lost, and how long a lesson takes to be durable."""
     if not hasattr(signal, "SIGKILL"):
         yield Figure("kills without a loss", float("nan"), note="this system has no SIGKILL")
         return
-    wanted = 20 if session.quick else KILLS
+    wanted = 20 if context.quick else KILLS
     tally = Tally()
     with tempfile.TemporaryDirectory(prefix="gaitwright-kills-") as folder:
         book = 0
         while tally.kills < wanted:
             try:
-                kill_through(Path(folder) / f"{book}.skills", session.seed + book, wanted, tally)
+                kill_through(Path(folder) / f"{book}.skills", context.seed + book, wanted, tally)
             except ChildFailed as failure:
                 yield Figure("runs after which the book loads", float("nan"), note=str(failure))
                 return
-            session.voice.say(f"kills: {tally.kills} of {wanted}", now=False)
+            context.voice.say(f"kills: {tally.kills} of {wanted}", now=False)
             book += 1
     numbers = {"books": book, "lessons": tally.lessons, "kills": tally.kills}
     yield Figure(

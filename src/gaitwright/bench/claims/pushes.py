@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from gaitwright.bench.claims.walks import failure
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.measurement import Figure, count
 from gaitwright.bench.trial import Outcome, Push, Trial
 
@@ -23,26 +23,26 @@ STEP, MOST = 0.15, 3.0
 """Rungs of the search for the largest push, and its end [N·s/kg]."""
 
 
-def measure(session: Session) -> Iterator[Figure]:
+def measure(context: Context) -> Iterator[Figure]:
     """Pushes sideways and forward; then the largest that are survived."""
     for name, directions, impulse, least in (
         ("sideways", SIDEWAYS, 1.0, ENOUGH),
         ("forward", FORWARD, 1.5, ENOUGH),
     ):
         what = f"go2 trot {SPEED:g} m/s: survived {impulse:g} N·s/kg {name}"
-        outcomes = pushed(session, what, impulse, directions, starts=20)
+        outcomes = pushed(context, what, impulse, directions, starts=20)
         good, every = sum(o.kept_up for o in outcomes), [o.plain() for o in outcomes]
         note = failure(outcomes) or "at phases spread over the cycle"
         yield count(what, good, len(outcomes), least, note, {"each": every})
-        if not session.quick:
-            yield largest(session, name, directions, impulse)
+        if not context.quick:
+            yield largest(context, name, directions, impulse)
 
 
 def pushed(
-    session: Session, what: str, impulse: float, directions: tuple[float, float], starts: int
+    context: Context, what: str, impulse: float, directions: tuple[float, float], starts: int
 ) -> list[Outcome]:
     """What became of pushed robots: phases spread over the cycle, each in both directions."""
-    seeds = session.seeds(starts, quick=2)
+    seeds = context.seeds(starts, quick=2)
     phases = max(1, len(seeds) // 2)
     trials = [
         Trial(
@@ -55,16 +55,16 @@ def pushed(
         )
         for i, seed in enumerate(seeds)
     ]
-    return session.outcomes(what, trials)
+    return context.outcomes(what, trials)
 
 
-def largest(session: Session, name: str, directions: tuple[float, float], claimed: float) -> Figure:
+def largest(context: Context, name: str, directions: tuple[float, float], claimed: float) -> Figure:
     """The largest push that 9 of 10 survive: rung by rung up from the claimed one, or down from it."""
     shares: dict[float, float] = {}
 
     def survived(impulse: float) -> bool:
         outcomes = pushed(
-            session, f"largest push {name}: {impulse:.2f} N·s/kg", impulse, directions, starts=10
+            context, f"largest push {name}: {impulse:.2f} N·s/kg", impulse, directions, starts=10
         )
         shares[round(impulse, 3)] = sum(o.kept_up for o in outcomes) / len(outcomes)
         return shares[round(impulse, 3)] >= ENOUGH

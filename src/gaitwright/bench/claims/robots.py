@@ -6,7 +6,7 @@ Not falling is not enough where a speed is asked for: it must be held to a tenth
 from collections.abc import Iterator
 
 from gaitwright.bench.claims.walks import Walk, measure_walks
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.measurement import Figure
 
 WALKS = (
@@ -19,6 +19,6 @@ WALKS = (
 """The hexapod's trot is its tripod gait, its walk a ripple."""
 
 
-def measure(session: Session) -> Iterator[Figure]:
+def measure(context: Context) -> Iterator[Figure]:
     """The figures of the other robots' walks."""
-    return measure_walks(session, WALKS)
+    return measure_walks(context, WALKS)

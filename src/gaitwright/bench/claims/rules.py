@@ -3,7 +3,7 @@ L8, L11)."""
 
 from collections.abc import Iterator
 
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.evidence.rule_decisions import decisions, explanations
 from gaitwright.bench.evidence.rule_lessons import corrections, learning, pupils
 from gaitwright.bench.measurement import Figure
@@ -23,10 +23,10 @@ NOTE = (
 )
 
 
-def measure(session: Session) -> Iterator[Figure]:
+def measure(context: Context) -> Iterator[Figure]:
     """Decisions, explanations, learning, corrections."""
-    yield from decisions(session)
-    yield from explanations(session)
-    taught = pupils(session)
-    yield from learning(session, taught)
-    yield from corrections(session, taught)
+    yield from decisions(context)
+    yield from explanations(context)
+    taught = pupils(context)
+    yield from learning(context, taught)
+    yield from corrections(context, taught)

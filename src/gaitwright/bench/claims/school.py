@@ -10,16 +10,15 @@ from time import perf_counter
 
 import numpy as np
 
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.measurement import Figure, at_least, at_most
 from gaitwright.bench.peers.rules_client import RulesPeer
 from gaitwright.bench.trial import robot_named
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.learning.apprentice import corrected, step_of
-from gaitwright.learning.critic import Moment
+from gaitwright.learning.critic import DecisionPoint
 from gaitwright.learning.exam import Trial, faults, held_out, right_share, trial
-from gaitwright.learning.keeping import keep
-from gaitwright.learning.school import Schooled, attend, demonstrate, demonstrations
+from gaitwright.learning.school import Schooled, attend, demonstrate, demonstrations, keep
 from gaitwright.learning.teacher import ScriptedTeacher
 from gaitwright.skillbook.book import Skillbook
 from gaitwright.skillbook.writer import open_for_learning
@@ -39,19 +38,19 @@ NOTE = (
 )
 
 
-def measure(session: Session) -> Iterator[Figure]:
+def measure(context: Context) -> Iterator[Figure]:
     """The exam of whole schools, the same beside scikit-learn, and what one correction does."""
-    robot, teacher, seeds = robot_named("go2"), ScriptedTeacher(), session.seeds(SCHOOLS, quick=1)
+    robot, teacher, seeds = robot_named("go2"), ScriptedTeacher(), context.seeds(SCHOOLS, quick=1)
     whole: list[Schooled] = []
     right = []
     for seed in seeds:
-        session.voice.say(f"school {seed}")
-        whole.append(attend(robot, teacher, seed, PER_SKILL, 20 if session.quick else TRIPS))
-        right.append(right_share(whole[-1].book, teacher, held_out(robot, teacher, seed, HELD_OUT)))
+        context.voice.say(f"school {seed}")
+        whole.append(attend(robot, teacher, seed, PER_SKILL, 20 if context.quick else TRIPS))
+        right.append(right_share(whole[-1].rulebook, teacher, held_out(robot, teacher, seed, HELD_OUT)))
     yield share(f"go2's rules: right on {HELD_OUT} held-out situations", right, at_least(95.0))
     yield share("go2's rules: trees that are firm", [s.report.firm for s in whole], at_least(80.0))
-    yield from beside(session, seeds)
-    yield from corrections(session, seeds)
+    yield from beside(context, seeds)
+    yield from corrections(context, seeds)
 
 
 def share(what: str, each: Sequence[float], wanted=None, note: str = "") -> Figure:
@@ -61,12 +60,12 @@ def share(what: str, each: Sequence[float], wanted=None, note: str = "") -> Figu
 
 
 # --- beside other learners -------------------------------------------------------------------------
-def beside(session: Session, seeds: Sequence[int]) -> Iterator[Figure]:
+def beside(context: Context, seeds: Sequence[int]) -> Iterator[Figure]:
     """Demonstrations alone: our rules, CART and k-NN on the same moments."""
     robot, teacher, ours, problem = robot_named("go2"), ScriptedTeacher(), [], []
     for seed in seeds:
         shown = demonstrations(robot, teacher, seed, PER_SKILL)
-        book = demonstrate(Rulebook(FOREST), teacher, shown).book
+        book = demonstrate(Rulebook(FOREST), teacher, shown).rulebook
         asked = held_out(robot, teacher, seed, HELD_OUT)
         ours.append(right_share(book, teacher, asked))
         problem.append(as_rows(teacher, [m for one in shown for m in one.moments], asked))
@@ -84,7 +83,7 @@ def beside(session: Session, seeds: Sequence[int]) -> Iterator[Figure]:
     yield share(what, more, at_least(0.0), f"the best is {best}")
 
 
-def as_rows(teacher: ScriptedTeacher, shown: Sequence[Moment], asked: Sequence[Moment]) -> dict:
+def as_rows(teacher: ScriptedTeacher, shown: Sequence[DecisionPoint], asked: Sequence[DecisionPoint]) -> dict:
     """Situations as numbers, and the teacher's action in each as a word."""
     return {
         "shown": [row_of(moment) for moment in shown],
@@ -94,21 +93,21 @@ def as_rows(teacher: ScriptedTeacher, shown: Sequence[Moment], asked: Sequence[M
     }
 
 
-def row_of(moment: Moment) -> list[int]:
+def row_of(moment: DecisionPoint) -> list[int]:
     """A 1 for each value that the situation is below: with the groups of the trees, not only the leaves."""
     pairs = zip(FOREST.trees, moment.situation.values, strict=True)
     return [int(tree.is_below(str(leaf), value)) for tree, leaf in pairs for value in tree.values[1:]]
 
 
 # --- one correction --------------------------------------------------------------------------------
-def corrections(session: Session, seeds: Sequence[int]) -> Iterator[Figure]:
+def corrections(context: Context, seeds: Sequence[int]) -> Iterator[Figure]:
     """Faults of pupils that are still learning, each corrected once."""
     robot, teacher = robot_named("go2"), ScriptedTeacher()
     trials: list[Trial] = []
     took: list[float] = []
     for seed in seeds:
-        session.voice.say(f"corrections of pupil {seed}")
-        book = attend(robot, teacher, seed, PER_SKILL, HALF).book
+        context.voice.say(f"corrections of pupil {seed}")
+        book = attend(robot, teacher, seed, PER_SKILL, HALF).rulebook
         pool = held_out(robot, teacher, seed + 5000, HELD_OUT)
         rng = np.random.default_rng([seed, 3])
         for fault in faults(book, teacher, held_out(robot, teacher, seed + 9000, 4 * HELD_OUT))[:FAULTS]:
@@ -128,7 +127,7 @@ def corrections(session: Session, seeds: Sequence[int]) -> Iterator[Figure]:
     yield Figure("from correction to stored rule, slowest", slowest, "ms", at_most(100.0), len(took), note)
 
 
-def stored(book: Rulebook, teacher: ScriptedTeacher, fault: Moment) -> float:
+def stored(book: Rulebook, teacher: ScriptedTeacher, fault: DecisionPoint) -> float:
     """Time from a correction until the rule is durable in a skillbook [s]."""
     correction = teacher.judge(step_of(book, fault).action, fault.raw)
     assert correction is not None

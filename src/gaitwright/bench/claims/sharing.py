@@ -9,7 +9,7 @@ import numpy as np
 
 from gaitwright.bench.claims.jumps import force_jumps
 from gaitwright.bench.claims.tick import MOMENTS, PEERS, Row, figures, ratio, run_rounds
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.evidence.agreement import ABSOLUTE, THESIS, agreement
 from gaitwright.bench.evidence.contenders import PeerTick, Times
 from gaitwright.bench.evidence.gaits import loads_of_gaits
@@ -19,7 +19,7 @@ from gaitwright.bench.peers.client import Peer
 from gaitwright.control.numerical import PLAIN, Method, NumericalController
 from gaitwright.control.thesis_program import LinearSettings
 from gaitwright.model.robot import Robot
-from gaitwright.signals import Torques
+from gaitwright.stages import Memory
 
 LOADS, QUICK_LOADS = 10_000, 300
 """Loads of real gaits that are compared with other solvers."""
@@ -61,16 +61,16 @@ CALM = Way("LP as it walks", "lp", PLAIN, None)
 WAYS = (QP, PRINTED, MINIMAX, CALM)
 
 
-def measure(session: Session) -> Iterator[Figure]:
+def measure(context: Context) -> Iterator[Figure]:
     """Times beside the peers', agreement with other solvers, and how forces jump."""
-    session.voice.say("sharing: recording a trot")
+    context.voice.say("sharing: recording a trot")
     trot = LiveTrot()
     robot = trot.brain.robot
-    yield from times(session, robot, trot.moments(MOMENTS))
-    session.voice.say("sharing: recording gaits")
-    yield from agreement(session, loads_of_gaits(session, QUICK_LOADS if session.quick else LOADS))
-    session.voice.say("sharing: following the forces of a trot")
-    moments = trot.moments(QUICK_JUMPS if session.quick else JUMPS)
+    yield from times(context, robot, trot.moments(MOMENTS))
+    context.voice.say("sharing: recording gaits")
+    yield from agreement(context, loads_of_gaits(context, QUICK_LOADS if context.quick else LOADS))
+    context.voice.say("sharing: following the forces of a trot")
+    moments = trot.moments(QUICK_JUMPS if context.quick else JUMPS)
     yield from force_jumps(moments, {way.name: way.controller(robot) for way in (QP, CALM, PRINTED)})
 
 
@@ -80,7 +80,7 @@ class Tick:
 
     def __init__(self, way: Way, robot: Robot, moments: Sequence[Moment]) -> None:
         self.name, self.controller, self.moments = name_of(way), way.controller(robot), moments
-        self.previous: Torques | None = None
+        self.memory: Memory = None
         self.done = self.failed = 0
 
     def round(self, ticks: int) -> Times:
@@ -88,10 +88,10 @@ class Tick:
         for tick in range(ticks):
             moment = self.moments[self.done % len(self.moments)]
             began = perf_counter_ns()
-            self.previous = self.controller.torques(moment.target, moment.sensed, self.previous)
+            command, self.memory = self.controller.command(moment.target, moment.sensed, self.memory)
             out[tick] = (perf_counter_ns() - began) / 1e3
             self.done += 1
-            self.failed += self.previous.status != "solved"
+            self.failed += command.status != "solved"
         return {self.name: out}
 
     def about(self) -> str:
@@ -103,14 +103,14 @@ def name_of(way: Way) -> str:
     return f"controller by {way.name}"
 
 
-def times(session: Session, robot: Robot, moments: Sequence[Moment]) -> Iterator[Figure]:
+def times(context: Context, robot: Robot, moments: Sequence[Moment]) -> Iterator[Figure]:
     """Medians and tails of all ways, and their ratios over the peers."""
     states = arrays(moments)
     with ExitStack() as stack:
-        session.voice.say("sharing: starting the peers (installed at the first run: minutes)")
+        context.voice.say("sharing: starting the peers (installed at the first run: minutes)")
         peers = [PeerTick(stack.enter_context(Peer(name, robot, states))) for name in PEERS]
         ours = [Tick(way, robot, moments) for way in WAYS]
-        rounds = run_rounds(session, [*ours, *peers])
+        rounds = run_rounds(context, [*ours, *peers])
         abouts = {peer.peer.name: peer.about() for peer in peers}
     for tick in ours:
         yield from figures(Row(tick.name, f"go2 trot, {tick.name}"), rounds, tick.about())

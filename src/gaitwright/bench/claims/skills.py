@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from gaitwright.bench.claims.walks import failure
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.measurement import Figure, at_least, at_most, count
 from gaitwright.bench.trial import Outcome, Trial
 
@@ -65,16 +65,16 @@ ROWS = (
 )
 
 
-def measure(session: Session) -> Iterator[Figure]:
+def measure(context: Context) -> Iterator[Figure]:
     """Falls and speed of every skill, and how far joints went."""
     beyond = []
     for row in ROWS:
-        seconds = session.seconds(SECONDS, 6.0)
+        seconds = context.seconds(SECONDS, 6.0)
         trials = [
             Trial(row.robot, "flat", seconds, seed, row.skill, row.speed, None)
-            for seed in session.seeds(STARTS)
+            for seed in context.seeds(STARTS)
         ]
-        outcomes = session.outcomes(row.what, trials)
+        outcomes = context.outcomes(row.what, trials)
         beyond += [outcome.beyond for outcome in outcomes if outcome.kept_up]
         yield from figures(row, seconds, outcomes)
     yield Figure("farthest any joint went beyond its limits", max(beyond), "°", LIMITS, len(beyond))

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from statistics import median
 
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.evidence.children import ChildFailed, Children, Used, can_measure
 from gaitwright.bench.measurement import Figure, Wanted, at_least, at_most
 from gaitwright.bench.trial import Trial, simulate
@@ -56,26 +56,26 @@ CHILDREN = (
 )
 
 
-def measure(session: Session) -> Iterator[Figure]:
+def measure(context: Context) -> Iterator[Figure]:
     """Speed of the simulation in this process, then children of ours."""
-    yield real_time(session)
+    yield real_time(context)
     if not can_measure():
         why = "this system does not tell what a child took"
         yield from (Figure(child.what, float("nan"), child.unit, child.wanted, 0, why) for child in CHILDREN)
         return
     with Children() as children:
         for child in CHILDREN:
-            session.voice.say(f"speed: {child.what}")
-            yield of_child(children, child, child.quick_runs if session.quick else child.runs)
+            context.voice.say(f"speed: {child.what}")
+            yield of_child(children, child, child.quick_runs if context.quick else child.runs)
 
 
-def real_time(session: Session) -> Figure:
+def real_time(context: Context) -> Figure:
     """How much faster than real time Go2 trots here, on one core."""
-    runs, seconds = (2, 3.0) if session.quick else (RUNS, SECONDS)
+    runs, seconds = (2, 3.0) if context.quick else (RUNS, SECONDS)
     cpu, wall = [], []
     for run in range(runs):
-        session.voice.say(f"speed: {seconds:g} s of trot, run {run + 1} of {runs}", now=False)
-        outcome = simulate(Trial("go2", "flat", seconds, session.seed, speed=0.4))
+        context.voice.say(f"speed: {seconds:g} s of trot, run {run + 1} of {runs}", now=False)
+        outcome = simulate(Trial("go2", "flat", seconds, context.seed, speed=0.4))
         cpu.append(outcome.report.duration_s / outcome.cpu_s)
         wall.append(outcome.report.duration_s / outcome.wall_s)
     what = "go2 trot, simulated on one core: real time"

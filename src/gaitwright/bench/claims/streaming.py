@@ -6,10 +6,11 @@ from time import perf_counter
 import numpy as np
 
 from gaitwright.assess.torque_profiles import torque_profiles
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.evidence.moments import LiveTrot
 from gaitwright.bench.measurement import Figure, at_least, at_most, count
 from gaitwright.control.moments import moments_of
+from gaitwright.control.numerical import result_of
 from gaitwright.control.stream import Efforts, Job, stream
 from gaitwright.description.load import load_robot
 from gaitwright.dynamics.closed_chain import reuse_errors
@@ -39,16 +40,15 @@ NOTE = (
 )
 
 
-def measure(session: Session) -> Iterator[Figure]:
+def measure(context: Context) -> Iterator[Figure]:
     """Rates, equality with single ticks, what holding the dynamics costs, and whole profiles."""
-    session.voice.say("streaming: recording a trot")
+    context.voice.say("streaming: recording a trot")
     trot = LiveTrot()
-    moments = trot.moments(QUICK_MOMENTS if session.quick else MOMENTS)
+    moments = trot.moments(QUICK_MOMENTS if context.quick else MOMENTS)
     rows = moments_of([m.sensed for m in moments], [m.target for m in moments])
-    first = moments[0].previous
-    job = Job(trot.brain.robot, rows, None if first is None else first.forces_w)
+    job = Job(trot.brain.robot, rows, result_of(moments[0].memory).forces_w.copy())
     for cores, wanted in ((2, at_least(100_000.0)), (1, None)):
-        session.voice.say(f"streaming: {JOBS * len(rows)} moments on {cores} cores")
+        context.voice.say(f"streaming: {JOBS * len(rows)} moments on {cores} cores")
         rates = [
             JOBS * len(rows) / timed(lambda n=cores: stream([job] * JOBS, cores=n)) for _ in range(REPEATS)
         ]
@@ -58,7 +58,7 @@ def measure(session: Session) -> Iterator[Figure]:
     yield equality(trot, moments, exact)
     yield from (holding(job, exact, ticks) for ticks in HELD)
     yield from reusing(trot.brain.robot)
-    yield fleet(session)
+    yield fleet(context)
 
 
 def timed(work: Callable[[], object]) -> float:
@@ -70,10 +70,10 @@ def timed(work: Callable[[], object]) -> float:
 
 def equality(trot: LiveTrot, moments: Sequence, exact: Efforts) -> Figure:
     """How many moments come out bit-equal to one tick after another."""
-    controller, before, good = trot.brain.controllers["numerical"], moments[0].previous, 0
+    controller, memory, good = trot.brain.controllers["numerical"], moments[0].memory, 0
     for i, moment in enumerate(moments):
-        before = controller.torques(moment.target, moment.sensed, before)
-        good += bool((before.tau == exact.tau[i]).all() and (before.forces_w == exact.forces_w[i]).all())
+        command, memory = controller.command(moment.target, moment.sensed, memory)
+        good += bool((command.tau == exact.tau[i]).all() and (command.forces_w == exact.forces_w[i]).all())
     return count("stream bit-equal to one tick at a time", good, len(moments), 1.0, "", {})
 
 
@@ -98,7 +98,7 @@ def reusing(robot: Robot) -> Iterator[Figure]:
         yield Figure(what, float(column.max()), "", None, len(starts), note)
 
 
-def fleet(session: Session) -> Figure:
+def fleet(context: Context) -> Figure:
     """Torque profiles of several robots at several speeds in one call."""
     cycles = []
     for name in FLEET:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from gaitwright.bench.claims.walks import failure
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.measurement import Figure, at_most, count
 from gaitwright.bench.trial import Trial
 
@@ -43,16 +43,16 @@ COURSES = (
 )
 
 
-def measure(session: Session) -> Iterator[Figure]:
+def measure(context: Context) -> Iterator[Figure]:
     """How many starts got across each course, and how far joints went."""
     beyond = []
     for course in COURSES:
         what = f"go2 {course.skill} over {course.scene}"
-        seeds = session.seeds(STARTS)
+        seeds = context.seeds(STARTS)
         trials = [
             Trial("go2", course.scene, course.seconds, seed, course.skill, None, None) for seed in seeds
         ]
-        outcomes = session.outcomes(what, trials)
+        outcomes = context.outcomes(what, trials)
         good = sum(outcome.kept_up for outcome in outcomes)
         beyond += [outcome.beyond for outcome in outcomes if outcome.kept_up and course.least]
         every = {"each": [outcome.plain() for outcome in outcomes]}

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.evidence.contenders import Contender, LiveTick, OurTick, PeerTick, Rnea, Times
 from gaitwright.bench.evidence.moments import LiveTrot, arrays
 from gaitwright.bench.measurement import Figure, Wanted, at_most
@@ -51,15 +51,15 @@ NOTE = (
 )
 
 
-def measure(session: Session) -> Iterator[Figure]:
+def measure(context: Context) -> Iterator[Figure]:
     """Medians, tails and ratios of all contenders."""
-    session.voice.say("tick: recording a trot")
+    context.voice.say("tick: recording a trot")
     trot = LiveTrot()
     moments = trot.moments(MOMENTS)
     states = arrays(moments)
     robot = trot.brain.robot
     with ExitStack() as stack:
-        session.voice.say("tick: starting the peers (installed at the first run: minutes)")
+        context.voice.say("tick: starting the peers (installed at the first run: minutes)")
         peers = {name: stack.enter_context(Peer(name, robot, states)) for name in PEERS}
         contenders: dict[str, Contender] = {
             "ours": OurTick(trot.brain, moments),
@@ -67,7 +67,7 @@ def measure(session: Session) -> Iterator[Figure]:
             "rnea": Rnea(robot, states),
             **{name: PeerTick(peer) for name, peer in peers.items()},
         }
-        rounds = run_rounds(session, list(contenders.values()))
+        rounds = run_rounds(context, list(contenders.values()))
         abouts = {name: contender.about() for name, contender in contenders.items()}
     abouts |= {"tick": abouts["ours"], "controller": abouts["ours"], "mj_step": abouts["live"]}
     abouts["live"] = "and the navigator's and chooser's share"
@@ -77,12 +77,12 @@ def measure(session: Session) -> Iterator[Figure]:
         yield ratio(ours, theirs, rounds, wanted, abouts[theirs])
 
 
-def run_rounds(session: Session, contenders: Sequence[Contender]) -> list[Times]:
+def run_rounds(context: Context, contenders: Sequence[Contender]) -> list[Times]:
     """All rounds, each with every contender's ticks; the first one, which warms up, is left out."""
-    rounds, ticks = (QUICK_ROUNDS, QUICK_TICKS) if session.quick else (ROUNDS, TICKS)
+    rounds, ticks = (QUICK_ROUNDS, QUICK_TICKS) if context.quick else (ROUNDS, TICKS)
     found: list[Times] = []
     for number in range(rounds + 1):
-        session.voice.say(f"timing: round {number} of {rounds}", now=False)
+        context.voice.say(f"timing: round {number} of {rounds}", now=False)
         times: Times = {}
         gc.collect()
         gc.disable()

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.measurement import Figure, count
 from gaitwright.bench.trial import Then, Trial
 from gaitwright.skills.library import skill_names
@@ -20,18 +20,18 @@ NOTE = (
 )
 
 
-def measure(session: Session) -> Iterator[Figure]:
+def measure(context: Context) -> Iterator[Figure]:
     """All ordered pairs of the skills of four legs."""
     names = skill_names(4)
     pairs = [(a, b) for a in names for b in names if a != b]
-    if session.quick:
+    if context.quick:
         pairs = pairs[:: len(pairs) // 10]
     trials = []
     for number, (first, second) in enumerate(pairs):
-        for seed in session.seeds(STARTS, quick=1):
+        for seed in context.seeds(STARTS, quick=1):
             at = FIRST + 0.6 * float(np.random.default_rng([number, seed]).uniform())
             trials.append(Trial("go2", "flat", at + SECOND, seed, first, None, None, then=Then(second, at)))
-    outcomes = session.outcomes("go2 transitions", trials)
+    outcomes = context.outcomes("go2 transitions", trials)
     pairs_failed = [
         f"{trial.skill} → {trial.then.skill}"
         for trial, outcome in zip(trials, outcomes, strict=True)

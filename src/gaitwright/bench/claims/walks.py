@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import ceil, degrees, isnan
 
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.measurement import Figure, at_most, count
 from gaitwright.bench.trial import Outcome, Trial, robot_named
 from gaitwright.control.numerical import Method
@@ -72,17 +72,17 @@ WALKS = (
 )
 
 
-def measure(session: Session) -> Iterator[Figure]:
+def measure(context: Context) -> Iterator[Figure]:
     """The figures of Go2's walks on flat ground."""
-    return measure_walks(session, WALKS)
+    return measure_walks(context, WALKS)
 
 
-def measure_walks(session: Session, walks: Sequence[Walk]) -> Iterator[Figure]:
+def measure_walks(context: Context, walks: Sequence[Walk]) -> Iterator[Figure]:
     """The figures of some walks, each from its starts."""
     for walk in walks:
-        seconds = session.seconds(walk.seconds, float(ceil(1.3 * walk.settled)))
-        trials = [walk.trial(seed, seconds) for seed in session.seeds(walk.starts)]
-        yield from figures(walk, seconds, session.outcomes(walk.what, trials))
+        seconds = context.seconds(walk.seconds, float(ceil(1.3 * walk.settled)))
+        trials = [walk.trial(seed, seconds) for seed in context.seeds(walk.starts)]
+        yield from figures(walk, seconds, context.outcomes(walk.what, trials))
 
 
 def figures(walk: Walk, seconds: float, outcomes: Sequence[Outcome]) -> Iterator[Figure]:

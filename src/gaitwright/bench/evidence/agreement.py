@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.evidence.sharing_oracles import Task, by_highs, by_quadprog, missing
 from gaitwright.bench.measurement import Figure, at_most, count
 from gaitwright.control.numerical import PLAIN
@@ -63,7 +63,7 @@ class Tally:
         yield count(f"{what}: same verdict and answer", self.agree, self.loads, 1.0, note, numbers)
 
 
-def agreement(session: Session, loads: Sequence[Task]) -> Iterator[Figure]:
+def agreement(context: Context, loads: Sequence[Task]) -> Iterator[Figure]:
     """Figures of both programs; not measured where their oracles are not installed."""
     linear, quadratic = "linear program against HiGHS", "quadratic program against quadprog"
     if why := missing():
@@ -72,10 +72,10 @@ def agreement(session: Session, loads: Sequence[Task]) -> Iterator[Figure]:
             yield Figure(f"{what}: worst difference", math.nan, unit, at_most(bound), 0, why)
         return
     lp, warm, qp = Tally(OBJECTIVE), Tally(OBJECTIVE), Tally(FORCE)
-    rng = np.random.default_rng(session.seed)
+    rng = np.random.default_rng(context.seed)
     kinds = list(KINDS.items())
     for number, load in enumerate(loads):
-        session.voice.say(f"sharing: comparing, {number} of {len(loads)} loads", now=False)
+        context.voice.say(f"sharing: comparing, {number} of {len(loads)} loads", now=False)
         task = weakened(load, rng) if number % 2 else load
         compare_linear((lp, warm), *kinds[rng.integers(len(kinds))], task, loads[max(number - 1, 0)])
         compare_quadratic(qp, task)

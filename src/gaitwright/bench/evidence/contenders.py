@@ -35,7 +35,7 @@ class Contender(Protocol):
 
 
 class OurTick:
-    """From `Sensed` to `Torques` on recorded moments: gait references, then the numerical controller."""
+    """From `Sensed` to `MotorCommand` on recorded moments: gait references, then the numerical controller."""
 
     def __init__(self, brain: Brain, moments: Sequence[Moment]) -> None:
         self.coordinator, self.controller = brain.coordinator, brain.controllers["numerical"]
@@ -48,9 +48,9 @@ class OurTick:
             moment = self.moments[self.cursor]
             self.cursor = (self.cursor + 1) % len(self.moments)
             began = perf_counter_ns()
-            target, _ = self.coordinator.move(moment.gait, moment.call, moment.sensed)
+            target, _ = self.coordinator.move(moment.gait, moment.call, moment.sensed, moment.ground)
             handed = perf_counter_ns()
-            self.controller.torques(target, moment.sensed, moment.previous)
+            self.controller.command(target, moment.sensed, moment.memory, moment.call, moment.ground)
             done = perf_counter_ns()
             whole[tick], alone[tick] = (done - began) / 1e3, (done - handed) / 1e3
         return {"tick": whole, "controller": alone}
@@ -71,7 +71,7 @@ class LiveTick:
         for tick in range(ticks):
             lap = self.trot.think()
             began = perf_counter_ns()
-            self.trot.sensed = self.trot.plant.step(lap.torques)
+            self.trot.sensed = self.trot.plant.step(lap.command)
             stepped = perf_counter_ns()
             self.trot.plant.sense()
             done = perf_counter_ns()

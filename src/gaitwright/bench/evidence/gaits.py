@@ -6,14 +6,14 @@ from itertools import pairwise
 
 import numpy as np
 
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.evidence.sharing_oracles import Task
 from gaitwright.bench.trial import DT, Trial, brain_for, robot_named
 from gaitwright.control.inverse_dynamics import load_of, packed_load
 from gaitwright.ground.scene import load_scene
-from gaitwright.locomotion import trip
 from gaitwright.numerics.geometry import GRAVITY
 from gaitwright.plant.registry import make_plant
+from gaitwright.session import Session
 from gaitwright.signals import Mission
 
 SECONDS = 2.0
@@ -33,11 +33,11 @@ GAITS = (
 )
 
 
-def loads_of_gaits(session: Session, number: int) -> list[Task]:
+def loads_of_gaits(context: Context, number: int) -> list[Task]:
     """So many loads, evenly from all gaits and starts; every one of them with a foot down."""
-    starts, found = session.seeds(STARTS, quick=1), []
+    starts, found = context.seeds(STARTS, quick=1), []
     for trial in GAITS:
-        session.voice.say(f"recording {trial.robot} {trial.skill}", now=False)
+        context.voice.say(f"recording {trial.robot} {trial.skill}", now=False)
         for seed in starts:
             found += [task for task in loads(replace(trial, seed=seed), EVERY) if task.stance.any()]
     return [found[i] for i in np.linspace(0, len(found) - 1, number).astype(int)]
@@ -48,11 +48,11 @@ def loads(trial: Trial, every: int = 1) -> Iterator[Task]:
     robot, scene = robot_named(trial.robot), load_scene(trial.scene, trial.seed)
     weight = robot.total_mass * GRAVITY
     plant = make_plant(trial.plant, robot, scene, DT)
-    laps = trip(brain_for(trial, robot, scene), plant, Mission(()), trial.seconds, trial.seed)
+    laps = Session(brain_for(trial, robot, scene), plant, Mission(()), trial.seconds, trial.seed)
     for number, (last, lap) in enumerate(pairwise(laps)):
         if number % every == 0:
             target, sensed = lap.target, lap.sensed
             yield Task(
                 load_of(packed_load(robot, target, sensed)), target.stance, target.share, target.normal_w,
-                last.torques.forces_w, robot.tau_max, sensed.qd, weight, robot.height,
+                last.command.forces_w, robot.tau_max, sensed.qd, weight, robot.height,
             )  # fmt: skip

@@ -13,7 +13,7 @@ from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.modifier import Lesson
 from gaitwright.knowledge.trees import interval_tree, tree
 from gaitwright.skillbook.book import Skillbook
-from gaitwright.skillbook.history import Step, settled
+from gaitwright.skillbook.history import Step, number_lesson
 from gaitwright.skillbook.writer import open_for_learning
 
 LESSONS = 150
@@ -61,11 +61,11 @@ def lesson_of(seed: int, place: int) -> Lesson:
 def taught(book: Skillbook, lesson: Lesson) -> Skillbook:
     """The book after a lesson, without any file."""
     before = book.rulebook
-    stated = settled(lesson, before.lessons)
+    stated = number_lesson(lesson, before.lessons)
     learned = teach(before, stated)
     note = learned.trouble.sentence if learned.trouble else ""
-    step = Step("taught", stated, None, note, learned.book.events[len(before.events) :])
-    return replace(book, rulebook=learned.book, steps=(*book.steps, step))
+    step = Step("taught", stated, None, note, learned.rulebook.events[len(before.events) :])
+    return replace(book, rulebook=learned.rulebook, steps=(*book.steps, step))
 
 
 if __name__ == "__main__":

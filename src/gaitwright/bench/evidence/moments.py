@@ -12,7 +12,8 @@ from gaitwright.ground.scene import load_scene
 from gaitwright.locomotion import Brain, Lap, Mind, think
 from gaitwright.numerics.geometry import quaternion_of
 from gaitwright.plant.mujoco.simulation import MujocoPlant
-from gaitwright.signals import Mission, MotionTarget, Sensed, SkillCall, Torques
+from gaitwright.signals import GroundMap, Mission, MotionTarget, Sensed, SkillCall
+from gaitwright.stages import Memory
 
 TROT = Trial("go2", "flat", 60.0, 0, speed=0.4)
 SETTLES = 1000
@@ -26,8 +27,10 @@ class Moment:
     gait: GaitMemory
     call: SkillCall
     sensed: Sensed
-    previous: Torques | None
+    memory: Memory
+    """Of the controller."""
     target: MotionTarget
+    ground: GroundMap
 
 
 class LiveTrot:
@@ -45,7 +48,7 @@ class LiveTrot:
     def advance(self) -> Lap:
         """One tick of brain and world."""
         lap = self.think()
-        self.sensed = self.plant.step(lap.torques)
+        self.sensed = self.plant.step(lap.command)
         return lap
 
     def think(self) -> Lap:
@@ -57,9 +60,11 @@ class LiveTrot:
         """The next ticks, recorded."""
         found = []
         for _ in range(number):
-            gait, previous = self.mind.gait, self.mind.torques
+            memories = self.mind.memories
             lap = self.advance()
-            found.append(Moment(gait, lap.call, lap.sensed, previous, lap.target))
+            found.append(
+                Moment(memories.gait, lap.call, lap.sensed, memories.control, lap.target, self.mind.ground)
+            )
         return found
 
 

@@ -18,7 +18,7 @@ from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.modifier import Lesson
 from gaitwright.knowledge.repair import mend
 from gaitwright.knowledge.rules import Instance, Marks, Rule, Rulebook, outside
-from gaitwright.knowledge.trees import ROOT, Tree, interval_tree, tree
+from gaitwright.knowledge.trees import ROOT, FeatureTree, interval_tree, tree
 
 RULES, TREES = 14, 12
 LEAVES = 6
@@ -141,13 +141,13 @@ def taught(book: Rulebook, lesson: Lesson) -> Rulebook:
     """The rulebook after a lesson, mended wherever it contradicts an earlier one."""
     for _ in range(REPAIRS):
         learned = teach(book, lesson)
-        book = learned.book
+        book = learned.rulebook
         if learned.trouble is None:
             return book
         mended = mend(book, learned.trouble, lesson.blame)
         if mended.how == "none":
             return book
-        book = mended.book
+        book = mended.rulebook
     return book
 
 
@@ -189,7 +189,7 @@ def fires_somewhere(rng: np.random.Generator, book: Rulebook, rule: Rule) -> boo
     return any(consult(book, situation).rule == rule.name for situation in drawn)
 
 
-def random_tree(rng: np.random.Generator, name: str) -> Tree:
+def random_tree(rng: np.random.Generator, name: str) -> FeatureTree:
     """A tree of names in random groups, or of intervals."""
     count = int(rng.integers(2, LEAVES + 1))
     if rng.random() < 0.3:

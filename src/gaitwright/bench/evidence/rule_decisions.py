@@ -7,7 +7,7 @@ from time import perf_counter_ns
 
 import numpy as np
 
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.evidence.clips_text import constructs, loops, symbols
 from gaitwright.bench.evidence.random_schools import RULES, TREES, RandomSchool, random_situation
 from gaitwright.bench.measurement import Figure, Wanted, at_least, at_most, count
@@ -19,7 +19,7 @@ from gaitwright.knowledge.explain import forest_text, history, why, why_not
 from gaitwright.knowledge.forest import Forest, Situation, replace_value
 from gaitwright.knowledge.memory import Fact, Memory
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.knowledge.trees import Tree
+from gaitwright.knowledge.trees import FeatureTree
 
 SITUATIONS, QUICK_SITUATIONS = 1000, 200
 ROUNDS, QUICK_ROUNDS = 40, 5
@@ -59,14 +59,14 @@ def asked(seed: int, number: int) -> Asked:
 
 
 # --- a decision ------------------------------------------------------------------------------------
-def decisions(session: Session) -> Iterator[Figure]:
+def decisions(context: Context) -> Iterator[Figure]:
     """Times from Python, in a compiled loop and of CLIPS, and whether all decide alike."""
-    session.voice.say("rules: decisions (CLIPS is installed at the first run: a minute)")
-    work = asked(session.seed, QUICK_SITUATIONS if session.quick else SITUATIONS)
+    context.voice.say("rules: decisions (CLIPS is installed at the first run: a minute)")
+    work = asked(context.seed, QUICK_SITUATIONS if context.quick else SITUATIONS)
     rows = [symbols(row) for row in work.leaves.tolist()]
     problem = {"constructs": constructs(work.book), "situations": rows, "loops": loops(rows)}
     with RulesPeer("clips", problem) as clips:
-        rounds = [timed(work, clips) for _ in range(1 + (QUICK_ROUNDS if session.quick else ROUNDS))]
+        rounds = [timed(work, clips) for _ in range(1 + (QUICK_ROUNDS if context.quick else ROUNDS))]
         yield from times(rounds[1:], clips)
         yield agreement(work, clips)
 
@@ -84,7 +84,7 @@ def timed(work: Asked, clips: RulesPeer) -> dict[str, float]:
     return found | ({"called": told["called_us"], "inside": told["inside_us"]} if told else {})
 
 
-def built(compiled: Compiled, intervals: Sequence[Tree], memory: Memory) -> tuple[str | None, bool]:
+def built(compiled: Compiled, intervals: Sequence[FeatureTree], memory: Memory) -> tuple[str | None, bool]:
     """A decision from working memory: numbers become leaves of their trees, then it is decided."""
     values: dict = dict(memory)
     for tree in intervals:
@@ -166,12 +166,12 @@ def first_false(answers: Sequence[bool]) -> int | None:
 
 
 # --- what is said about it -------------------------------------------------------------------------
-def explanations(session: Session) -> Iterator[Figure]:
+def explanations(context: Context) -> Iterator[Figure]:
     """Whether counterfactuals come true, and how long a whole explanation takes."""
-    session.voice.say("rules: counterfactuals")
-    wanted = QUICK_REPLAYS if session.quick else REPLAYS
+    context.voice.say("rules: counterfactuals")
+    wanted = QUICK_REPLAYS if context.quick else REPLAYS
     true, changed, none = [], [], 0
-    for seed in session.seeds(wanted // 20, quick=max(2, wanted // 20)):
+    for seed in context.seeds(wanted // 20, quick=max(2, wanted // 20)):
         for came_true, trees in replays(seed, 20):
             if came_true is None:
                 none += 1
@@ -182,7 +182,7 @@ def explanations(session: Session) -> Iterator[Figure]:
     numbers = {"first_false": first_false(true), "none_found": none}
     what = "counterfactuals that come true when the change is made"
     yield count(what, sum(true), len(true), 0.99, note, numbers)
-    yield from explaining(session)
+    yield from explaining(context)
 
 
 def replays(seed: int, number: int) -> Iterator[tuple[bool | None, int]]:
@@ -208,14 +208,14 @@ def replays(seed: int, number: int) -> Iterator[tuple[bool | None, int]]:
         yield said and then == found.decision.rule and (then == to if to else then != now), len(found.changes)
 
 
-def explaining(session: Session) -> Iterator[Figure]:
+def explaining(context: Context) -> Iterator[Figure]:
     """How long one explanation takes: why, why not another, the smallest changes, a rule's history."""
-    session.voice.say("rules: explanations")
-    number = QUICK_EXPLAINED if session.quick else EXPLAINED
-    school = RandomSchool(session.seed)
-    book, _ = school.demonstrate(1 if session.quick else 3)
+    context.voice.say("rules: explanations")
+    number = QUICK_EXPLAINED if context.quick else EXPLAINED
+    school = RandomSchool(context.seed)
+    book, _ = school.demonstrate(1 if context.quick else 3)
     took = []
-    for situation in school.held_out(session.seed, number):
+    for situation in school.held_out(context.seed, number):
         began = perf_counter_ns()
         explain(book, situation)
         took.append((perf_counter_ns() - began) / 1e6)

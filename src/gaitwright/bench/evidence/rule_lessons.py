@@ -8,7 +8,7 @@ from time import perf_counter
 
 import numpy as np
 
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.evidence.random_schools import (
     Example,
     RandomSchool,
@@ -45,9 +45,9 @@ class Pupil:
     shown: tuple[Example, ...]
 
 
-def schools(session: Session) -> list[School]:
+def schools(context: Context) -> list[School]:
     """Who teaches: random rulebooks, harder than what a robot's teacher has in mind (claim `school`)."""
-    return [RandomSchool(seed) for seed in session.seeds(SCHOOLS, quick=1)]
+    return [RandomSchool(seed) for seed in context.seeds(SCHOOLS, quick=1)]
 
 
 def store(book: Rulebook, folder: Path) -> None:
@@ -56,22 +56,22 @@ def store(book: Rulebook, folder: Path) -> None:
         draft.write_bytes(dumps(book))
 
 
-def pupils(session: Session) -> list[Pupil]:
+def pupils(context: Context) -> list[Pupil]:
     """A pupil of each school after a few demonstrations of each skill."""
-    found, teachers = [], schools(session)
+    found, teachers = [], schools(context)
     for k, school in enumerate(teachers):
-        session.voice.say(f"rules: school {k + 1} of {len(teachers)}", now=False)
+        context.voice.say(f"rules: school {k + 1} of {len(teachers)}", now=False)
         book, shown = school.demonstrate(PER_SKILL)
         found.append(Pupil(school, book, tuple(shown)))
     return found
 
 
 # --- from a few demonstrations ---------------------------------------------------------------------
-def learning(session: Session, taught: Sequence[Pupil]) -> Iterator[Figure]:
+def learning(context: Context, taught: Sequence[Pupil]) -> Iterator[Figure]:
     """Right decisions and firm trees after a few demonstrations, beside CART and k-NN on the same ones."""
     problem, ours = [], []
     for pupil in taught:
-        asked = pupil.school.held_out(session.seed + 1000, HELD_OUT)
+        asked = pupil.school.held_out(context.seed + 1000, HELD_OUT)
         examples = [(situation, pupil.school.right(situation)) for situation in asked]
         ours.append(100.0 * share_right(pupil.book, examples))
         problem.append(as_rows(pupil, examples))
@@ -79,7 +79,7 @@ def learning(session: Session, taught: Sequence[Pupil]) -> Iterator[Figure]:
     after = f"after {PER_SKILL} demonstrations of each skill"
     yield share(f"random teachers: right {after}, {HELD_OUT} held-out situations", ours)
     yield share(f"random teachers: trees of a rule that are firm {after}", firm)
-    yield from beside(session, ours, problem)
+    yield from beside(context, ours, problem)
 
 
 def share(what: str, each: Sequence[float], wanted=None, note: str = "") -> Figure:
@@ -89,9 +89,9 @@ def share(what: str, each: Sequence[float], wanted=None, note: str = "") -> Figu
     return Figure(what, float(np.mean(each)), "%", wanted, len(each), told, {"each": list(each)})
 
 
-def beside(session: Session, ours: Sequence[float], problem: list[dict]) -> Iterator[Figure]:
+def beside(context: Context, ours: Sequence[float], problem: list[dict]) -> Iterator[Figure]:
     """What CART and k-NN make of the same demonstrations, and whether we are better than the best of them."""
-    session.voice.say("rules: scikit-learn (installed at the first run: a minute)")
+    context.voice.say("rules: scikit-learn (installed at the first run: a minute)")
     what = "random teachers: our right decisions less the best learner's"
     with RulesPeer("sklearn", {"schools": problem}) as peer:
         if peer.reason is not None:
@@ -125,12 +125,12 @@ def row_of(school: School, situation: Situation) -> list[int]:
 
 
 # --- one correction --------------------------------------------------------------------------------
-def corrections(session: Session, taught: Sequence[Pupil]) -> Iterator[Figure]:
+def corrections(context: Context, taught: Sequence[Pupil]) -> Iterator[Figure]:
     """Whether one correction mends a fault wherever it occurs, breaks nothing, and is stored quickly."""
     mended, broken, took = [], [], []
     for k, pupil in enumerate(taught):
-        session.voice.say(f"rules: corrections of pupil {k + 1}", now=False)
-        for fixed, lost, seconds in corrected(session, pupil):
+        context.voice.say(f"rules: corrections of pupil {k + 1}", now=False)
+        for fixed, lost, seconds in corrected(context, pupil):
             mended += fixed
             broken += lost
             took.append(1e3 * seconds)
@@ -159,16 +159,16 @@ def corrections(session: Session, taught: Sequence[Pupil]) -> Iterator[Figure]:
     yield Figure("correction to stored rule: slowest", slowest, "ms", at_most(100.0), faults, note, each)
 
 
-def corrected(session: Session, pupil: Pupil) -> Iterator[tuple[list[bool], list[bool], float]]:
+def corrected(context: Context, pupil: Pupil) -> Iterator[tuple[list[bool], list[bool], float]]:
     """For some faults: which variants are mended, which earlier decisions broken, and the time [s]."""
     school, book = pupil.school, pupil.book
     table = compile_book(book)
     earlier = [
         situation
-        for situation in school.held_out(session.seed + 2000, HELD_OUT)
+        for situation in school.held_out(context.seed + 2000, HELD_OUT)
         if decided(book, situation, table) == school.right(situation)
     ]
-    for fault in found_faults(school, book, session.seed + 3000):
+    for fault in found_faults(school, book, context.seed + 3000):
         variants = school.variants(book, fault, VARIANTS)
         began = perf_counter()
         better = school.correct(book, fault)

@@ -7,7 +7,7 @@ from jaxtyping import Float
 
 from gaitwright.gait.climb.motion import Motion
 from gaitwright.ground.scene import Scene
-from gaitwright.model.kinematics import HINGES, REACHED
+from gaitwright.model.kinematics import HINGES, REACHED, feet_over_time
 from gaitwright.model.reach import reach
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.polygon import hull, margins
@@ -50,35 +50,19 @@ class Margins(NamedTuple):
 
 def links(robot: Robot, q: Float[np.ndarray, "n legs 3"]) -> Links:
     """Hinges, feet and the centre of mass for joint angles [rad]."""
-    R1 = turns(0, q[..., 0])
-    R2 = R1 @ turns(1, q[..., 1])
-    R3 = R2 @ turns(1, robot.sign * q[..., 2])
+    of = robot.arrays
 
-    def turned(R: np.ndarray, vector: np.ndarray) -> np.ndarray:
-        return np.einsum("nlij,lj->nli", R, vector)
+    def at(points: np.ndarray, link: int) -> np.ndarray:
+        """Where points `(legs, 3)` of a link are, given from its hinge in its axes."""
+        offset = of.offset.copy()
+        offset[:, link], offset[:, link + 1 :] = points, 0.0
+        return feet_over_time(of.hip, of.leg_frame, offset, of.sign, q)
 
-    hip = turned(R1, robot.offset[:, 0])
-    knee = hip + turned(R2, robot.offset[:, 1])
-    foot = knee + turned(R3, robot.offset[:, 2])
-    centres = (
-        turned(R1, robot.com[:, 0]),
-        hip + turned(R2, robot.com[:, 1]),
-        knee + turned(R3, robot.com[:, 2]),
-    )
-    in_base = [robot.hip + np.einsum("lij,nlj->nli", robot.leg_frame, p) for p in (hip, knee, foot, *centres)]
+    hip, knee, foot = (at(robot.offset[:, link], link) for link in range(3))
     moment = robot.base_mass * robot.base_com + sum(
-        (robot.mass[:, k, None] * in_base[3 + k]).sum(axis=1) for k in range(3)
+        (robot.mass[:, link, None] * at(robot.com[:, link], link)).sum(axis=1) for link in range(3)
     )
-    return Links(in_base[0], in_base[1], in_base[2], moment / robot.total_mass)
-
-
-def turns(axis: int, angle: np.ndarray) -> np.ndarray:
-    """Rotations about x (axis 0) or y (axis 1)."""
-    c, s, out = np.cos(angle), np.sin(angle), np.zeros((*angle.shape, 3, 3))
-    i, j = ((1, 2), (2, 0))[axis]
-    out[..., axis, axis] = 1.0
-    out[..., i, i], out[..., i, j], out[..., j, i], out[..., j, j] = c, -s, s, c
-    return out
+    return Links(hip, knee, foot, moment / robot.total_mass)
 
 
 def to_world(made: Motion, points_b: np.ndarray) -> np.ndarray:

@@ -7,9 +7,8 @@ from jaxtyping import Float
 
 from gaitwright.gait.climb.motion import SHIFT, Motion
 from gaitwright.gait.climb.plan import Ascent, order_of
-from gaitwright.gait.state import GaitMemory
 from gaitwright.numerics.geometry import between, rotation_vector
-from gaitwright.signals import Gait, MotionTarget, Sensed, SkillCall
+from gaitwright.signals import Gait, GroundMap, MotionTarget, Sensed, SkillCall
 
 UP = np.array([0.0, 0.0, 1.0])
 """Normal of every tread."""
@@ -25,16 +24,18 @@ class Climber:
     dt: float
     """Control period [s]."""
 
-    def begin(self, sensed: Sensed, phase: float = 0.0) -> GaitMemory:
+    def begin(self, sensed: Sensed, phase: float = 0.0) -> float:
         """The memory of a robot at the start of its climb: the time since then [s]."""
-        return np.zeros(1)
+        return 0.0
 
-    def move(self, memory: GaitMemory, call: SkillCall, sensed: Sensed) -> tuple[MotionTarget, GaitMemory]:
+    def move(
+        self, memory: float, call: SkillCall, sensed: Sensed, ground: GroundMap | None = None
+    ) -> tuple[MotionTarget, float]:
         """What body, feet and joints should do now, and the memory for the next tick."""
-        time = float(memory[0]) + self.dt
+        time = memory + self.dt
         made = self.ascent.at(np.maximum(time + TICK * np.array([-1.0, 0.0, 1.0]), 0.0))
         over = time >= len(self.ascent.steps) * self.ascent.seconds
-        stance, (spin, spin_rate) = made.stance[1], spinning(made)
+        stance, (omega, omega_rate) = made.stance[1], turning(made)
         target = MotionTarget(
             phase=time / call.gait.period % 1.0,
             stance=stance,
@@ -44,15 +45,15 @@ class Climber:
             velocity_w=rate(made.position_w),
             acceleration_w=rate_of_rate(made.position_w),
             rotation_wb=made.rotation_wb[1],
-            angular_velocity_w=spin,
-            angular_acceleration_w=spin_rate,
+            angular_velocity_w=omega,
+            angular_acceleration_w=omega_rate,
             feet_w=made.feet_w[1],
             feet_velocity_w=rate(made.feet_w),
             feet_acceleration_w=rate_of_rate(made.feet_w),
             q=made.q[1],
             command=np.array([0.0 if over else call.velocity[0], 0.0, 0.0]),
         )
-        return target, np.array([time])
+        return target, time
 
 
 def climb_call(ascent: Ascent, driver: str) -> SkillCall:
@@ -76,7 +77,7 @@ def rate_of_rate(three: Float[np.ndarray, "3 ..."]) -> Float[np.ndarray, "..."]:
     return (three[2] - 2.0 * three[1] + three[0]) / TICK**2
 
 
-def spinning(made: Motion) -> tuple[Float[np.ndarray, "3"], Float[np.ndarray, "3"]]:
+def turning(made: Motion) -> tuple[Float[np.ndarray, "3"], Float[np.ndarray, "3"]]:
     """Angular velocity and acceleration of the body in the middle of three moments, world axes."""
     R = made.rotation_wb
     first, second = (np.array(rotation_vector(between(R[i], R[i + 1]))) / TICK for i in range(2))

@@ -1,7 +1,7 @@
 """A climb as steps, one foot at a time, and the motion they make: body, feet and joints over time.
 
 A step has two parts. First all feet stand and the body shifts; then it keeps still and one foot swings: up,
-over, down. Body and foot move by `swing.smooth`, so that they rest at either end.
+over, down. Body and foot move along `eased`, so that they rest at either end.
 """
 
 from dataclasses import dataclass
@@ -9,8 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from gaitwright.gait.desired_cycle import joints_of
+from gaitwright.model.leg_motion import joints_of
 from gaitwright.model.robot import Robot
+from gaitwright.numerics.geometry import from_roll_pitch_yaw
 
 SHIFT = 0.4
 """Share of a step in which the body shifts."""
@@ -61,7 +62,7 @@ def motion(robot: Robot, steps: tuple[Step, ...], seconds: float, time: Float[np
     before, after = (np.array([getattr(step, name) for step in steps])[number] for name in ("before", "body"))
     pose = before + (after - before) * shift
     feet, stance = feet_motion(steps, number, share)
-    R = attitude(pose[:, 3], pose[:, 4])
+    R = from_roll_pitch_yaw(np.pad(pose[:, 3:], ((0, 0), (0, 1))))
     feet_b = (feet - pose[:, None, :3]) @ R
     still = np.zeros_like(feet_b)
     q, _, _, codes = joints_of(robot.packed, feet_b, still, still)
@@ -89,14 +90,6 @@ def feet_motion(
 
 
 def eased(x: Float[np.ndarray, "n"], start: float, end: float) -> Float[np.ndarray, "n"]:
-    """`swing.smooth` from 0 at `start` to 1 at `end`, constant outside."""
+    """10s³ − 15s⁴ + 6s⁵ from 0 at `start` to 1 at `end`, constant outside: at rest at both."""
     s = np.clip((x - start) / (end - start), 0.0, 1.0)
     return s**3 * (10.0 + s * (6.0 * s - 15.0))
-
-
-def attitude(roll: Float[np.ndarray, "n"], pitch: Float[np.ndarray, "n"]) -> Float[np.ndarray, "n 3 3"]:
-    """R_wb of bodies at yaw 0 (eq. 3-1)."""
-    cr, sr, cp, sp = np.cos(roll), np.sin(roll), np.cos(pitch), np.sin(pitch)
-    zero = np.zeros_like(cr)
-    rows = [[cp, sp * sr, sp * cr], [zero, cr, -sr], [-sp, cp * sr, cp * cr]]
-    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)

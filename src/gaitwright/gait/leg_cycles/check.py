@@ -11,10 +11,10 @@ from jaxtyping import Float
 
 from gaitwright.dynamics.newton_euler import inverse_dynamics
 from gaitwright.errors import WrongUse
-from gaitwright.gait.cycle_numbers import check_numbers
-from gaitwright.gait.desired_cycle import joints_of
+from gaitwright.gait.desired_cycle import check_numbers
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle, is_hind, sampled, seen_from_hip
 from gaitwright.model.kinematics import HINGES, REACHED
+from gaitwright.model.leg_motion import joints_of
 from gaitwright.model.reach import LIMIT_TOLERANCE, reach
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY
@@ -75,7 +75,7 @@ def check_cycle(cycle: LegCycle, robot: Robot, gait: Gait, speed: float) -> tupl
     """
     if len(gait.offsets) != robot.n:
         raise WrongUse(f"gait {gait.name!r} is for {len(gait.offsets)} legs; {robot.name} has {robot.n}")
-    check_numbers(gait, np.array([speed, 0.0, 0.0]), None, None)
+    check_numbers(gait, np.array([speed, 0.0, 0.0]))
     if gait.duty >= 1.0:
         raise WrongUse(f"gait {gait.name!r} lifts no foot (duty factor {gait.duty:g}): it has no leg cycle")
     swing = swing_of(cycle, robot, gait, float(speed))

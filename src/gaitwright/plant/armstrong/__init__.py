@@ -1,1 +1,1 @@
-"""Torques → Sensed by Armstrong's recursion: ball joints held by springs (rows N6 … N8)."""
+"""MotorCommand → Measured by Armstrong's recursion: ball joints held by springs (rows N6 … N8)."""

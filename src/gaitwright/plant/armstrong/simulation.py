@@ -1,4 +1,4 @@
-"""Torques → Sensed: the thesis's plant, a robot of ball joints moved by Armstrong's recursion (rows N6 … N8).
+"""MotorCommand → Measured: the thesis's plant, ball joints moved by Armstrong's recursion (rows N6 … N8).
 
 Next to MuJoCo it is the second opinion: other mechanics, other contact, other integration, same doors.
 Only feet touch the ground; whether the body fell, the watch says.
@@ -22,9 +22,10 @@ from gaitwright.plant.armstrong.rotors import newton_matrix
 from gaitwright.plant.armstrong.stiffness import MARGIN, stiffest_mode
 from gaitwright.plant.armstrong.system import Drive, System, loads, mobility_of_hinges, parts, sensed
 from gaitwright.plant.armstrong.touch_planes import Ground
+from gaitwright.plant.instruments import specific_force
 from gaitwright.plant.limits import check_force, check_timestep
 from gaitwright.plant.start import start_of
-from gaitwright.signals import Sensed, Torques
+from gaitwright.signals import Measured, MotorCommand
 
 
 @dataclass
@@ -86,7 +87,7 @@ class ArmstrongPlant:
             )
         return asked
 
-    def reset(self, seed: int = 0, vary: bool = True) -> Sensed:
+    def reset(self, seed: int = 0, vary: bool = True) -> Measured:
         """The robot on its feet at the scene's start; `vary` draws small differences from `seed`.
 
         They are those of every plant (`plant.start`).
@@ -96,15 +97,18 @@ class ArmstrongPlant:
         parts(self.system, self.state).v[:] = start.velocity_w
         self.time, self.trial_step, self.worst_residual = 0.0, self.timestep, 0.0
         self.centres = feet(self.robot, start.q) @ start.rotation_wb.T + start.position_w
+        self.velocity = start.velocity_w
         self.drive = self._drive(np.zeros((self.robot.n, 3)), np.zeros(3))
-        return self.sense()
+        self.measured = self.sense()
+        return self.measured
 
-    def step(self, torques: Torques) -> Sensed:
+    def step(self, command: MotorCommand) -> Measured:
         """One control period under constant torques [N·m], within the robot's limits.
 
-        Torques that are not all numbers switch the motors off.
+        What gains ask for is taken as the period begins. Torques that are no numbers switch the motors off.
         """
-        self.drive = self._drive(torques.tau, self.drive.push)
+        self.velocity = parts(self.system, self.state).v.copy()
+        self.drive = self._drive(command.torques(self.measured.q, self.measured.qd), self.drive.push)
         if self.check:
             self._compare()
         y = self.state.copy()
@@ -112,19 +116,24 @@ class ArmstrongPlant:
             self.system, self.drive, y, self.method, self.trial_step, self.dt, self.refresh, self.tolerance
         )
         self.state, self.time = y, self.time + self.dt
-        return self.sense()
+        self.measured = self.sense()
+        return self.measured
 
     def push(self, force_w: tuple[float, float, float]) -> None:
         """A force [N] on the base's centre of mass from now on, world axes."""
         check_force(force_w)
         self.drive = self.drive._replace(push=np.array(force_w, dtype=float))
 
-    def sense(self) -> Sensed:
+    def rearrange(self, scene: Scene) -> None:
+        """Another arrangement of the world from now on; robot and friction stay as they are."""
+        self.scene, self.ground = scene, Ground.of(scene)
+
+    def sense(self) -> Measured:
         """The true state, copied; angles and rates of the hinges as the ball joints have them."""
         n, p = self.robot.n, parts(self.system, self.state)
         numbers = sensed(self.system, self.drive, self.state)
         self.centres = numbers[7 * n :].reshape(n, 3)
-        return Sensed(
+        return Measured(
             time=self.time,
             position_w=p.x.copy(),
             orientation_wb=p.quaternion[0].copy(),
@@ -133,6 +142,7 @@ class ArmstrongPlant:
             q=numbers[: 3 * n].reshape(n, 3),
             qd=numbers[3 * n : 6 * n].reshape(n, 3),
             load=numbers[6 * n : 7 * n],
+            specific_force_b=specific_force(p.quaternion[0], p.v, self.velocity, self.dt),
         )
 
     def _drive(self, tau: Float[np.ndarray, "legs 3"], push: Float[np.ndarray, "3"]) -> Drive:

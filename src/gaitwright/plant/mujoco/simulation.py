@@ -1,16 +1,116 @@
-"""Torques → Sensed: the robot in MuJoCo, with contact and friction."""
+"""MotorCommand → Measured: one robot, or several, in MuJoCo, with contact and friction."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import mujoco
+import numpy as np
 
 from gaitwright.ground.scene import Scene
 from gaitwright.model.robot import Robot
+from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import quaternion_of
+from gaitwright.plant.instruments import specific_force
 from gaitwright.plant.limits import check_force, check_timestep
-from gaitwright.plant.mujoco.world import build_world
+from gaitwright.plant.mujoco.world import Placed, build_world
 from gaitwright.plant.start import start_of
-from gaitwright.signals import Sensed, Torques
+from gaitwright.signals import Measured, MotorCommand
+
+
+@dataclass(frozen=True)
+class Address:
+    """Where a robot's numbers stand in a world of several; found by its names."""
+
+    base: int
+    """Its body."""
+    qpos: slice
+    qvel: slice
+    joints: slice
+    rates: slice
+    """Its hinges in `qpos` and `qvel`."""
+    ctrl: slice
+    touch: slice
+
+    @classmethod
+    def of(cls, model: mujoco.MjModel, placed: Placed) -> "Address":
+        """The address of a robot in a world that `build_world` made."""
+        prefix, robot = placed.prefix, placed.robot
+        joint = model.joint(f"{prefix}base")
+        q, v, hinges = int(joint.qposadr[0]), int(joint.dofadr[0]), 3 * robot.n
+        motor = model.actuator(f"{prefix}{robot.legs[0]}_hip1").id
+        touch = int(model.sensor(f"{prefix}{robot.legs[0]}_touch").adr[0])
+        return cls(
+            model.body(f"{prefix}base").id,
+            slice(q, q + 7 + hinges),
+            slice(v, v + 6 + hinges),
+            slice(q + 7, q + 7 + hinges),
+            slice(v + 6, v + 6 + hinges),
+            slice(motor, motor + hinges),
+            slice(touch, touch + robot.n),
+        )
+
+
+class MujocoWorld:
+    """Robots in a scene, each an obstacle to the others."""
+
+    def __init__(self, robots: Sequence[Placed], scene: Scene, timestep: float) -> None:
+        self.robots, self.scene, self.timestep = tuple(robots), scene, timestep
+        self.model = build_world(robots, scene, timestep)
+        self.data = mujoco.MjData(self.model)
+        self.addresses = tuple(Address.of(self.model, placed) for placed in robots)
+        self.before = [np.zeros(3) for _ in robots]
+        """Velocities of the bases when the last control period began."""
+
+    def place(self, i: int, seed: int, vary: bool) -> None:
+        """Puts robot `i` on its feet at its start, varied by `seed` where asked (`start_of`)."""
+        at, placed = self.addresses[i], self.robots[i]
+        start = start_of(placed.robot, self.scene, seed, vary, placed.start)
+        quaternion = quaternion_of(start.rotation_wb)
+        self.data.qpos[at.qpos] = np.concatenate([start.position_w, quaternion, start.q.ravel()])
+        self.data.qvel[at.qvel] = 0.0
+        self.data.qvel[at.qvel.start : at.qvel.start + 3] = self.before[i] = start.velocity_w
+
+    def tell(self, i: int, command: MotorCommand) -> None:
+        """Sets the motors of robot `i`, as its joints are now."""
+        at, n = self.addresses[i], self.robots[i].robot.n
+        tau = command.tau
+        if command.kp is not None or command.kd is not None:
+            tau = command.torques(
+                self.data.qpos[at.joints].reshape(n, 3), self.data.qvel[at.rates].reshape(n, 3)
+            )
+        self.data.ctrl[at.ctrl] = tau.ravel()
+
+    def advance(self, commands: Sequence[MotorCommand], steps: int) -> None:
+        """So many steps of the physics under a command for each robot."""
+        for i, at in enumerate(self.addresses):
+            self.before[i] = self.data.qvel[at.qvel.start : at.qvel.start + 3].copy()
+        for _ in range(steps):
+            for i, command in enumerate(commands):
+                self.tell(i, command)
+            mujoco.mj_step(self.model, self.data)
+
+    def sense(self, i: int, dt: float) -> Measured:
+        """The true state of robot `i`, copied."""
+        at, data = self.addresses[i], self.data
+        row, felt = state_row(
+            data.time, data.qpos[at.qpos], data.qvel[at.qvel], data.sensordata[at.touch], self.before[i], dt
+        )
+        return Measured.of_row(row, specific_force_b=felt)
+
+    def push(self, i: int, force_w: tuple[float, float, float]) -> None:
+        """A force [N] on the centre of mass of robot `i`'s base from now on, world axes."""
+        check_force(force_w)
+        self.data.xfrc_applied[self.addresses[i].base, :3] = force_w
+
+    def rearranged(self, scene: Scene) -> "MujocoWorld":
+        """The same robots as they are now in another scene."""
+        new, old = MujocoWorld(self.robots, scene, self.timestep), self.data
+        new.data.time, new.data.qpos[:], new.data.qvel[:] = old.time, old.qpos, old.qvel
+        new.data.ctrl[:], new.data.qacc_warmstart[:] = old.ctrl, old.qacc_warmstart
+        for here, there in zip(self.addresses, new.addresses, strict=True):
+            new.data.xfrc_applied[there.base] = old.xfrc_applied[here.base]
+        new.before = self.before
+        return new
 
 
 @dataclass
@@ -23,49 +123,57 @@ class MujocoPlant:
     """Control period [s], an integer multiple of `timestep`."""
     timestep: float = 0.002
     """Step of the physics [s]."""
-    model: mujoco.MjModel = field(init=False, repr=False)
-    data: mujoco.MjData = field(init=False, repr=False)
+    world: MujocoWorld = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         check_timestep(self.timestep, self.dt)
-        self.model = build_world(self.robot, self.scene, self.timestep)
-        self.data = mujoco.MjData(self.model)
+        self.world = MujocoWorld([Placed(self.robot)], self.scene, self.timestep)
         self.substeps = max(1, round(self.dt / self.timestep))
 
-    def reset(self, seed: int = 0, vary: bool = True) -> Sensed:
+    @property
+    def model(self) -> mujoco.MjModel:
+        """MuJoCo's model of the world."""
+        return self.world.model
+
+    @property
+    def data(self) -> mujoco.MjData:
+        """MuJoCo's state of the world."""
+        return self.world.data
+
+    def reset(self, seed: int = 0, vary: bool = True) -> Measured:
         """The robot on its feet at the scene's start, varied by `seed` where asked (`start_of`)."""
-        start = start_of(self.robot, self.scene, seed, vary)
         mujoco.mj_resetData(self.model, self.data)
-        self.data.qpos[:3] = start.position_w
-        self.data.qpos[3:7] = quaternion_of(start.rotation_wb)
-        self.data.qpos[7:] = start.q.ravel()
-        self.data.qvel[:3] = start.velocity_w
+        self.world.place(0, seed, vary)
         mujoco.mj_forward(self.model, self.data)
         return self.sense()
 
-    def step(self, torques: Torques) -> Sensed:
-        """One control period under constant torques [N·m]."""
-        self.data.ctrl[:] = torques.tau.ravel()
-        for _ in range(self.substeps):
-            mujoco.mj_step(self.model, self.data)
+    def step(self, command: MotorCommand) -> Measured:
+        """One control period under a command; torques [N·m] stay within the robot's limits."""
+        self.world.advance((command,), self.substeps)
         return self.sense()
 
     def push(self, force_w: tuple[float, float, float]) -> None:
         """A force [N] on the base's centre of mass from now on, world axes."""
-        check_force(force_w)
-        self.data.xfrc_applied[1, :3] = force_w
+        self.world.push(0, force_w)
 
-    def sense(self) -> Sensed:
+    def rearrange(self, scene: Scene) -> None:
+        """Another arrangement of the world from now on; the robot stays as it is."""
+        self.scene, self.world = scene, self.world.rearranged(scene)
+
+    def sense(self) -> Measured:
         """The true state, copied."""
-        d, n = self.data, self.robot.n
-        qpos, qvel = d.qpos.copy(), d.qvel.copy()
-        return Sensed(
-            time=d.time,
-            position_w=qpos[:3],
-            orientation_wb=qpos[3:7],
-            velocity_w=qvel[:3],
-            angular_velocity_b=qvel[3:6],
-            q=qpos[7:].reshape(n, 3),
-            qd=qvel[6:].reshape(n, 3),
-            load=d.sensordata[:n].copy(),
-        )
+        return self.world.sense(0, self.dt)
+
+
+@kernel
+def state_row(time, qpos, qvel, touch, before, dt):
+    """The row of a `Sensed`, and the specific force; `before`: velocity one control period ago."""
+    joints, legs = qpos.size - 7, touch.size
+    row = np.empty(14 + 7 * legs)
+    row[0] = time
+    row[1:8] = qpos[:7]
+    row[8:14] = qvel[:6]
+    row[14 : 14 + joints] = qpos[7:]
+    row[14 + joints : 14 + 2 * joints] = qvel[6:]
+    row[14 + 2 * joints :] = touch
+    return row, specific_force(qpos[3:7], qvel, before, dt)

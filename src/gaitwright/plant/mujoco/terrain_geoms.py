@@ -14,16 +14,21 @@ SAMPLE = 0.05
 """Grid spacing for surfaces that MuJoCo has no shape for [m]."""
 
 
-def collides(scene: Scene, with_robot: bool) -> dict[str, str]:
-    """Geom attributes that let ground and robot touch each other, and neither itself."""
-    bits = ("1", "0") if with_robot else ("0", "1")
+def touching(scene: Scene, kind: int, others: int) -> dict[str, str]:
+    """Geom attributes: the bits of what it is and of what touches it, and the friction of the scene."""
     friction = f"{float(scene.friction)!r} 0.005 0.0001"
-    return {"contype": bits[0], "conaffinity": bits[1], "condim": "3", "friction": friction}
+    return {"contype": str(kind), "conaffinity": str(others), "condim": "3", "friction": friction}
+
+
+def robot_touches(scene: Scene, number: int, of: int) -> dict[str, str]:
+    """Geom attributes of robot `number` of so many: it touches the ground and the others, not itself."""
+    others = sum(2 << k for k in range(of) if k != number)
+    return touching(scene, 2 << number, 1 | others)
 
 
 def add(root: Element, world: Element, scene: Scene) -> None:
     """Adds the geoms of a scene to `world`, and to `root` what they rest on."""
-    solid = collides(scene, with_robot=True)
+    solid = touching(scene, 1, 0)
     if isinstance(scene.surface, Flat | Slope):
         normal = scene.surface.normal(0.0, 0.0)
         child(world, "geom", solid, name="ground", type="plane", size=[0, 0, 1], zaxis=normal)

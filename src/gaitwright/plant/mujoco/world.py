@@ -1,16 +1,20 @@
-"""Robot + Scene → MuJoCo model: the physics world, written from plain numbers.
+"""Robots + Scene → MuJoCo model: the physics world, written from plain numbers.
 
 The model is generated as MJCF text with every number in full, so that its mass matrix is the controllers'
-own to rounding. `qpos[7:]`, `qvel[6:]` and `ctrl` reshape to `(legs, 3)`; `sensordata` holds the normal
-force on each foot [N].
+own to rounding. A robot's hinges, motors and touch sensors stand together, leg by leg; `simulation.Address`
+says where.
 """
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
 import mujoco
 import numpy as np
 
+from gaitwright.errors import WrongUse
 from gaitwright.ground.scene import Scene
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, quaternion_of
@@ -27,18 +31,32 @@ SHANK = 0.75
 """Radius of thigh and shank over that of the foot [-]."""
 
 
-def build_world(robot: Robot, scene: Scene, timestep: float = 0.002) -> mujoco.MjModel:
-    """The physics of a robot in a scene; `timestep` in seconds.
+@dataclass(frozen=True)
+class Placed:
+    """A robot in a world."""
 
-    Robots collide with the ground and the boxes, not with themselves. MuJoCo's reset upon a bad state is off:
-    numbers that blow up stay visible. Raises `ValueError` where MuJoCo refuses the robot's numbers.
+    robot: Robot
+    prefix: str = ""
+    """What the names of its bodies, joints, motors and sensors begin with: one for each robot of several."""
+    start: tuple[float, float, float] | None = None
+    """x, y [m], yaw [rad]; `None`: the scene's."""
+
+
+def build_world(robots: Sequence[Placed], scene: Scene, timestep: float = 0.002) -> mujoco.MjModel:
+    """The physics of robots in a scene; `timestep` in seconds.
+
+    Robots collide with the ground, the boxes and each other, not with themselves. MuJoCo's reset upon a bad
+    state is off: numbers that blow up stay visible. Raises `ValueError` where MuJoCo refuses a robot.
     """
-    root = Element("mujoco", model=f"{robot.name} in {scene.name}")
+    if len(robots) > MOST_ROBOTS:
+        raise WrongUse(f"{len(robots)} robots in one world; there can be {MOST_ROBOTS}")
+    root = Element("mujoco", model=" and ".join(placed.robot.name for placed in robots) + f" in {scene.name}")
     child(root, "compiler", angle="radian", autolimits="true")
     _add_options(root, timestep)
-    world = child(root, "worldbody")
+    world, actuator, sensor = child(root, "worldbody"), child(root, "actuator"), child(root, "sensor")
     ground.add(root, world, scene)
-    _add_robot(root, world, robot, scene)
+    for number, placed in enumerate(robots):
+        _add_robot(Into(world, actuator, sensor), placed, scene, number, len(robots))
     model = mujoco.MjModel.from_xml_string(ElementTree.tostring(root, encoding="unicode"))
     ground.fill(model, scene)
     return model
@@ -50,49 +68,65 @@ def _add_options(root: Element, timestep: float) -> None:
     child(option, "flag", autoreset="disable")
 
 
-def _add_robot(root: Element, world: Element, robot: Robot, scene: Scene) -> None:
-    x, y, _ = scene.start
-    base = child(world, "body", name="base", pos=[x, y, float(scene.height(x, y)) + robot.height])
-    child(base, "freejoint", name="base")
+class Into(NamedTuple):
+    """The parts of a model that a robot is added to."""
+
+    world: Element
+    actuator: Element
+    sensor: Element
+
+
+MOST_ROBOTS = 30
+"""MuJoCo has a bit for each to tell it from the others."""
+
+
+def _add_robot(into: Into, placed: Placed, scene: Scene, number: int, of: int) -> None:
+    robot, prefix = placed.robot, placed.prefix
+    x, y, _ = placed.start or scene.start
+    base = child(
+        into.world, "body", name=f"{prefix}base", pos=[x, y, float(scene.height(x, y)) + robot.height]
+    )
+    child(base, "freejoint", name=f"{prefix}base")
     _add_inertia(base, robot.base_mass, robot.base_com, robot.base_inertia)
-    solid = ground.collides(scene, with_robot=False)
-    child(base, "geom", solid, name="trunk", type="box", pos=robot.trunk[0], size=robot.trunk[1])
-    actuator, sensor = child(root, "actuator"), child(root, "sensor")
+    solid = ground.robot_touches(scene, number, of)
+    child(base, "geom", solid, name=f"{prefix}trunk", type="box", pos=robot.trunk[0], size=robot.trunk[1])
     for k, leg in enumerate(robot.legs):
-        _add_leg(base, robot, k, solid)
+        _add_leg(base, placed, k, solid)
         for joint, limit in zip(JOINTS, robot.tau_max[k], strict=True):
-            name = f"{leg}_{joint}"
-            child(actuator, "motor", name=name, joint=name, ctrlrange=[-limit, limit])
-        child(sensor, "touch", name=f"{leg}_touch", site=f"{leg}_foot")
+            name = f"{prefix}{leg}_{joint}"
+            child(into.actuator, "motor", name=name, joint=name, ctrlrange=[-limit, limit])
+        child(into.sensor, "touch", name=f"{prefix}{leg}_touch", site=f"{prefix}{leg}_foot")
 
 
-def _add_leg(base: Element, robot: Robot, k: int, solid: dict[str, str]) -> None:
+def _add_leg(base: Element, placed: Placed, k: int, solid: dict[str, str]) -> None:
     """Three links, or two where the first has no mass: then its hinge moves to the second link."""
-    leg, offset = robot.legs[k], robot.offset[k]
+    robot = placed.robot
+    name, offset = placed.prefix + robot.legs[k], robot.offset[k]
     hip = {"pos": robot.hip[k], "quat": quaternion_of(robot.leg_frame[k])}
     if robot.mass[k, 0] > 0.0:
-        link = child(base, "body", name=f"{leg}_hip", **hip)
+        link = child(base, "body", name=f"{name}_hip", **hip)
         _add_link_inertia(link, robot, k, 0)
-        _add_hinge(link, robot, k, 0)
-        thigh = child(link, "body", name=f"{leg}_thigh", pos=offset[0])
+        _add_hinge(link, placed, k, 0)
+        thigh = child(link, "body", name=f"{name}_thigh", pos=offset[0])
     else:
         hip["pos"] = robot.hip[k] + robot.leg_frame[k] @ offset[0]
-        thigh = child(base, "body", name=f"{leg}_thigh", **hip)
-        _add_hinge(thigh, robot, k, 0, at=-offset[0])
+        thigh = child(base, "body", name=f"{name}_thigh", **hip)
+        _add_hinge(thigh, placed, k, 0, at=-offset[0])
     _add_link_inertia(thigh, robot, k, 1)
-    _add_hinge(thigh, robot, k, 1)
-    shank = child(thigh, "body", name=f"{leg}_shank", pos=offset[1])
+    _add_hinge(thigh, placed, k, 1)
+    shank = child(thigh, "body", name=f"{name}_shank", pos=offset[1])
     _add_link_inertia(shank, robot, k, 2)
-    _add_hinge(shank, robot, k, 2)
-    _add_shapes(thigh, shank, robot, k, solid)
+    _add_hinge(shank, placed, k, 2)
+    _add_shapes(thigh, shank, placed, k, solid)
 
 
-def _add_hinge(body: Element, robot: Robot, k: int, i: int, at: np.ndarray | None = None) -> None:
+def _add_hinge(body: Element, placed: Placed, k: int, i: int, at: np.ndarray | None = None) -> None:
+    robot = placed.robot
     axis = ([1, 0, 0], [0, 1, 0], [0, robot.sign[k], 0])[i]
     child(
         body,
         "joint",
-        name=f"{robot.legs[k]}_{JOINTS[i]}",
+        name=f"{placed.prefix}{robot.legs[k]}_{JOINTS[i]}",
         axis=axis,
         pos=np.zeros(3) if at is None else at,
         range=[robot.q_min[k, i], robot.q_max[k, i]],
@@ -111,9 +145,10 @@ def _add_inertia(body: Element, mass: float, com: np.ndarray, inertia: np.ndarra
     child(body, "inertial", mass=mass, pos=com, fullinertia=six)
 
 
-def _add_shapes(thigh: Element, shank: Element, robot: Robot, k: int, solid: dict[str, str]) -> None:
+def _add_shapes(thigh: Element, shank: Element, placed: Placed, k: int, solid: dict[str, str]) -> None:
     """A sphere for the foot, capsules for the rest; the shank's ends short of the foot."""
-    leg, r = robot.legs[k], robot.foot_radius[k]
+    robot = placed.robot
+    leg, r = placed.prefix + robot.legs[k], robot.foot_radius[k]
     knee, foot = robot.offset[k, 1], robot.offset[k, 2]
     child(thigh, "geom", solid, name=f"{leg}_thigh", type="capsule", fromto=[0, 0, 0, *knee], size=SHANK * r)
     length = np.linalg.norm(foot)

@@ -65,18 +65,18 @@ def wishes(joining: Joining) -> list[Wish]:
     return list(found.values())
 
 
-def holds(book: Rulebook, lesson: Lesson) -> bool:
+def holds(rulebook: Rulebook, lesson: Lesson) -> bool:
     """Whether what fires there does what the lesson wants."""
-    fires = consult(book, lesson.situation).rule
-    return fires is not None and book[fires].action == lesson.action
+    fires = consult(rulebook, lesson.situation).rule
+    return fires is not None and rulebook[fires].action == lesson.action
 
 
-def follows(book: Rulebook, lesson: Lesson) -> bool:
+def follows(rulebook: Rulebook, lesson: Lesson) -> bool:
     """Whether a book decides as it was taught."""
-    stated = lesson_over(book.forest, lesson)
+    stated = lesson_over(rulebook.forest, lesson)
     if isinstance(stated, str):
         return False
-    return consult(book, stated.situation).rule in same_action(book, lesson.rule)
+    return consult(rulebook, stated.situation).rule in same_action(rulebook, lesson.rule)
 
 
 def lost(joining: Joining, wish: Wish) -> Conflict:

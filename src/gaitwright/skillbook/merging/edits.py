@@ -38,7 +38,7 @@ def take_rule(joining: Joining, rule: Rule, old: Rule | None) -> None:
             take_instance(joining, name, rule.action, instance)
     if joining.rulebook[name].proposed and not rule.proposed:
         confirmed = confirm(joining.rulebook, name, f"a merge with {joining.their_name}")
-        joining.edit(confirmed.book, f"{name} was confirmed in {joining.their_name}")
+        joining.edit(confirmed.rulebook, f"{name} was confirmed in {joining.their_name}")
 
 
 def add_rule(joining: Joining, rule: Rule) -> None:
@@ -86,4 +86,4 @@ def take_preference(joining: Joining, wish: Preference) -> None:
         sentence = f"{why}, as {wish.instance} taught; here that order cannot be"
         joining.report(Conflict(better, (), (), (wish.instance,), sentence))
         return
-    joining.edit(learned.book, why)
+    joining.edit(learned.rulebook, why)

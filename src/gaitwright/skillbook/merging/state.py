@@ -9,9 +9,10 @@ from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.modifier import Inconsistency, Lesson, learn, values_text
 from gaitwright.knowledge.repair import mend
 from gaitwright.knowledge.rules import Event, Rulebook
+from gaitwright.knowledge.widen import widened
 from gaitwright.skillbook.book import Skillbook
 from gaitwright.skillbook.history import How, Step
-from gaitwright.skillbook.merging.translate import differing, joined, lesson_over, widened
+from gaitwright.skillbook.merging.translate import differing, lesson_over
 
 TRIES = 10
 """So often a lesson is mended and taught again before it counts as a contradiction."""
@@ -56,10 +57,10 @@ class Joining:
                 f"{self.their_name}: ours stays, and what theirs knows by other values is reported"
             )
             self.report(Conflict("", (tree,), (), (), sentence))
-        forest = joined(self.rulebook.forest, self.theirs.rulebook.forest)
-        if forest != self.rulebook.forest:
-            new = ", ".join(forest.names[len(self.rulebook.forest.names) :])
-            self.edit(widened(self.rulebook, forest), f"{new}: known in {self.their_name}")
+        wider = widened(self.rulebook, self.theirs.rulebook.forest.trees)
+        if wider is not self.rulebook:
+            new = ", ".join(wider.forest.names[len(self.rulebook.forest.names) :])
+            self.edit(wider, f"{new}: known in {self.their_name}")
         actions = {rule.name: rule.action for rule in self.rulebook.rules}
         for rule in self.theirs.rulebook.rules:
             if actions.get(rule.name, rule.action) != rule.action:
@@ -95,11 +96,11 @@ class Joining:
         for _ in range(TRIES):
             learned = (learn if how == "learned" else teach)(self.rulebook, lesson)
             trouble = learned.trouble
-            self.step(Step(how, lesson, None, trouble.sentence if trouble else ""), learned.book)
+            self.step(Step(how, lesson, None, trouble.sentence if trouble else ""), learned.rulebook)
             if trouble is None:
                 return
             mended = mend(self.rulebook, trouble, lesson.blame)
-            self.step(Step("mended", lesson, None, mended.sentence), mended.book)
+            self.step(Step("mended", lesson, None, mended.sentence), mended.rulebook)
             if mended.how == "none":
                 break
             if how == "learned":  # what is mended is learned
@@ -108,15 +109,15 @@ class Joining:
             self.report(self._contradicted(lesson, trouble))
             self.given_up.add(lesson.id)
 
-    def edit(self, book: Rulebook, note: str, events: tuple[Event, ...] = ()) -> None:
+    def edit(self, rulebook: Rulebook, note: str, events: tuple[Event, ...] = ()) -> None:
         """One more step that holds a whole rulebook, with events that the rulebook does not have yet."""
-        full = replace(book, events=(*book.events, *events))
+        full = replace(rulebook, events=(*rulebook.events, *events))
         self.step(Step("edited", None, replace(full, events=()), note), full)
 
-    def step(self, step: Step, book: Rulebook) -> None:
-        events = book.events[len(self.rulebook.events) :]
+    def step(self, step: Step, rulebook: Rulebook) -> None:
+        events = rulebook.events[len(self.rulebook.events) :]
         self.steps.append(replace(step, events=events))
-        self.rulebook = book
+        self.rulebook = rulebook
 
     def sides(self, ids: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Ids of lessons: ours, and theirs."""
@@ -156,9 +157,9 @@ class Joining:
         return name
 
 
-def action_of(book: Rulebook, lesson: Lesson) -> Action | None:
+def action_of(rulebook: Rulebook, lesson: Lesson) -> Action | None:
     """What a lesson's rule does: as the book has it, or as the lesson says."""
-    return next((rule.action for rule in book.rules if rule.name == lesson.rule), lesson.action)
+    return next((rule.action for rule in rulebook.rules if rule.name == lesson.rule), lesson.action)
 
 
 def apart(situation: Situation, others: Sequence[Situation]) -> tuple[str, ...]:

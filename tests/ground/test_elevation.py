@@ -5,7 +5,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gaitwright.ground.foothold_map import EDGE, MARGIN, Footing, edges, height_at, nearest
+from gaitwright.ground.elevation import (
+    EDGE,
+    MARGIN,
+    edges,
+    elevation_grid,
+    height_at,
+    is_known,
+    may_stand,
+    nearest,
+    nodes,
+)
 from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.ground.terrain import Box, Flat
 from oracles import robot_called
@@ -32,29 +42,29 @@ def test_every_step_has_one_on_both_sides(times: float, sign: float, along: bool
 
 def test_heights_are_the_scenes() -> None:
     scene = load_scene("rough:0.05", seed=3)
-    footing = Footing.of(scene, DOG)
+    grid = elevation_grid(scene, DOG)
     rng = np.random.default_rng(1)
     x, y = rng.uniform(-3.0, 9.0, 200), rng.uniform(-3.0, 3.0, 200)
-    mine = [height_at(footing.ground, a, b) for a, b in zip(x, y, strict=True)]
+    mine = [height_at(grid, a, b) for a, b in zip(x, y, strict=True)]
     np.testing.assert_allclose(mine, scene.height(x, y), atol=0.012)
-    rows, columns = footing.nodes(x, y)
+    rows, columns = nodes(grid, x, y)
     for a, b, row, column in zip(x, y, rows, columns, strict=True):
-        assert nearest(footing.ground, a, b) == (row, column)
+        assert nearest(grid, a, b) == (row, column)
 
 
 @pytest.mark.parametrize("name", ["flat", "slope:12", "cross-slope:-8"])
 def test_a_plane_needs_no_grid(name: str) -> None:
-    assert not Footing.of(load_scene(name), DOG).is_known
+    assert not is_known(elevation_grid(load_scene(name), DOG))
 
 
 def test_a_field_too_wide_for_a_grid_is_walked_blind() -> None:
     wide = Scene("wide", Flat(), (Box(5.0, 0.0, 0.0, 1.0, 1.0, 0.1),), (-500.0, -500.0, 500.0, 500.0))
-    assert not Footing.of(wide, DOG).is_known
+    assert not is_known(elevation_grid(wide, DOG))
 
 
 def test_no_foot_stands_at_the_rim_of_a_block() -> None:
     scene = Scene("one", Flat(), (Box(1.0, 0.0, 0.3, 0.6, 0.6, 0.1),), (-1.0, -2.0, 3.0, 2.0))
-    footing = Footing.of(scene, DOG)
+    grid = elevation_grid(scene, DOG)
     x, y = scene.boxes[0].corners().T
-    assert not footing.may_stand(x, y).any()
-    assert footing.may_stand(np.array([1.0, 0.2]), np.array([0.0, 0.0])).all()
+    assert not may_stand(grid, x, y).any()
+    assert may_stand(grid, np.array([1.0, 0.2]), np.array([0.0, 0.0])).all()

@@ -1,16 +1,22 @@
-"""One leg as tuples: what the recursions of dynamics read, turn by turn.
+"""One leg as tuples: its kinematics turn by turn, and the numbers that the recursions of dynamics read.
 
 Rows and matrices out of arrays cost a kernel more than the arithmetic on them. So a leg's numbers are
 read once, and from there on everything is a tuple: a matrix is the tuple of its rows, a hinge's turn is
 the cosine and sine of its angle.
+
+Whoever asks how a leg moves asks here: `foot_and_columns` (the foot and its Jacobian J), `bias_motion` (what
+rates alone do, J̇ q̇ among it), `solve_columns` (J x = b, and what is done where J is singular).
 """
 
 import math
 from typing import NamedTuple
 
 from gaitwright.numerics.compiled import kernel
-from gaitwright.numerics.geometry import add, cross, scale, sub, turn_x, turn_y, vec
+from gaitwright.numerics.geometry import add, cross, dot, scale, sub, turn_x, turn_y, vec
 from gaitwright.numerics.matrices import rows, rows_at, vec_at
+
+SINGULAR = 0.01
+"""A pose is singular where the columns of J span a smaller volume than this share of what they could."""
 
 
 class Leg(NamedTuple):
@@ -79,8 +85,6 @@ def base_at(packed):
 
 
 # --- turning -------------------------------------------------------------------------------------
-
-
 @kernel
 def leg_turns(q, sign):
     """Cosine and sine of the three hinges; the third about +y, whichever way its axis points."""
@@ -129,3 +133,83 @@ def hinge_axes(turns, sign):
     """The axes of the three hinges, leg frame."""
     c1, s1 = turns[0]
     return (1.0, 0.0, 0.0), (0.0, c1, s1), (0.0, sign * c1, sign * s1)
+
+
+# --- rates and accelerations -----------------------------------------------------------------------
+@kernel
+def combined(rates, columns):
+    """J x: the Jacobian's columns times the joint rates."""
+    return add(add(scale(rates[0], columns[0]), scale(rates[1], columns[1])), scale(rates[2], columns[2]))
+
+
+@kernel
+def carried(a, w, wd, r):
+    """Acceleration of a point at `r` on a body whose origin accelerates with `a` (eq. 4-12)."""
+    return add(a, add(cross(wd, r), cross(w, cross(w, r))))
+
+
+@kernel
+def hinge_motion(w, wd, axis_rate):
+    """Angular velocity and acceleration past a hinge that keeps its rate; child's axes (eq. 4-10, 4-11)."""
+    return add(w, axis_rate), add(wd, cross(w, axis_rate))
+
+
+@kernel
+def bias_motion(turns, qd, offset, sign, w, wd, a):
+    """Angular velocity, angular and linear acceleration of the three links with q̈ = 0, each in its axes.
+
+    `turns`: `leg_turns` of the angles; `w`, `wd`, `a`: those of the base at the first hinge, leg frame.
+    """
+    (c1, s1), (c2, s2), (c3, s3) = turns
+    w1, wd1 = hinge_motion(turn_x(c1, -s1, w), turn_x(c1, -s1, wd), (qd[0], 0.0, 0.0))
+    a1 = turn_x(c1, -s1, a)
+    a2 = turn_y(c2, -s2, carried(a1, w1, wd1, offset[0]))
+    w2, wd2 = hinge_motion(turn_y(c2, -s2, w1), turn_y(c2, -s2, wd1), (0.0, qd[1], 0.0))
+    a3 = turn_y(c3, -s3, carried(a2, w2, wd2, offset[1]))
+    w3, wd3 = hinge_motion(turn_y(c3, -s3, w2), turn_y(c3, -s3, wd2), (0.0, sign * qd[2], 0.0))
+    return (w1, wd1, a1), (w2, wd2, a2), (w3, wd3, a3)
+
+
+@kernel
+def foot_acceleration(turns, motion, offset):
+    """Acceleration of the foot centre, leg frame, from the motion of the links."""
+    w, wd, a = motion[2]
+    return to_leg_frame(turns, carried(a, w, wd, offset[2]))
+
+
+# --- and back --------------------------------------------------------------------------------------
+@kernel
+def longest_square(c1, c2, c3):
+    """Square of the longest column of J [m²]."""
+    return max(dot(c1, c1), dot(c2, c2), dot(c3, c3))
+
+
+@kernel
+def least_volume(c1, c2, c3):
+    """The volume of the columns of J below which a pose is singular [m³].
+
+    It is P A, with P the foot's distance from under the first axis in the plane in which the knee bends, and
+    A the area of thigh and shank there. With r the longest column (as far as the foot is from a hinge) and s
+    the shank, no pose of the leg has more than r · r s.
+    """
+    return SINGULAR * longest_square(c1, c2, c3) * math.sqrt(dot(c3, c3))
+
+
+@kernel
+def is_regular(c1, c2, c3):
+    """Whether joint rates follow exactly from the velocity of the foot."""
+    return abs(dot(c1, cross(c2, c3))) >= least_volume(c1, c2, c3)
+
+
+@kernel
+def solve_columns(c1, c2, c3, b):
+    """x with J x = b, by cofactors; near a singular pose it is not exact, and bounded.
+
+    Then |x₁|, |x₂| ≤ |b| / (`SINGULAR` r) and |x₃| ≤ |b| / (`SINGULAR` s), as in `least_volume`.
+    """
+    n23 = cross(c2, c3)
+    volume = dot(c1, n23)
+    least = least_volume(c1, c2, c3)
+    if abs(volume) < least:
+        volume = math.copysign(least, volume)
+    return scale(1.0 / volume, (dot(b, n23), dot(b, cross(c3, c1)), dot(b, cross(c1, c2))))

@@ -1,0 +1,109 @@
+"""The ground as feet know it: heights on a grid, and the places where no foot should stand (row J8)."""
+
+import numpy as np
+from jaxtyping import Float
+
+from gaitwright.ground.scene import Scene
+from gaitwright.ground.terrain import Flat, Slope
+from gaitwright.model.robot import Robot
+from gaitwright.numerics.compiled import kernel
+from gaitwright.signals import ElevationGrid
+
+SPACING = 0.07
+"""Distance between grid nodes, in body heights."""
+MARGIN = 2
+"""Nodes that a foot keeps away from an edge."""
+EDGE = 0.1
+"""A break of the ground by more than this, in body heights, is an edge."""
+MOST_NODES = 4_000_000
+"""Beyond this many the grid gets coarser."""
+COARSEST = 0.25
+"""A grid coarser than this, in body heights, is of no use to feet."""
+
+
+BLIND = ElevationGrid(np.array([0.0, 0.0, 1.0]), np.empty((0, 0)), np.empty((0, 0)))
+"""Nothing is known: feet trust the plane through their last footholds."""
+
+
+def elevation_grid(scene: Scene, robot: Robot) -> ElevationGrid:
+    """The known ground of a scene; a plane needs no grid, and a field too wide for one has none."""
+    if isinstance(scene.surface, Flat | Slope) and not scene.boxes:
+        return BLIND
+    x_min, y_min, x_max, y_max = scene.bounds
+    nodes = (x_max - x_min) * (y_max - y_min) / MOST_NODES
+    spacing = max(SPACING * robot.height, float(np.sqrt(nodes)))
+    if spacing > COARSEST * robot.height:
+        return BLIND
+    x = np.arange(x_min, x_max + spacing, spacing)
+    y = np.arange(y_min, y_max + spacing, spacing)
+    heights = np.array(scene.height(x[None, :], y[:, None]), dtype=float)
+    return ElevationGrid(np.array([x_min, y_min, spacing]), heights, edges(heights, EDGE * robot.height))
+
+
+def may_stand(grid: ElevationGrid, x: Float[np.ndarray, "n"], y: Float[np.ndarray, "n"]) -> np.ndarray:
+    """Whether a foot may stand at places [m], beyond the grid as at its rim."""
+    row, column = nodes(grid, x, y)
+    return grid.edges[row, column] < 0.5
+
+
+def nearest_height(grid: ElevationGrid, x: Float[np.ndarray, "n"], y: Float[np.ndarray, "n"]) -> np.ndarray:
+    """Height of the nearest node [m]."""
+    row, column = nodes(grid, x, y)
+    return grid.heights[row, column]
+
+
+def nodes(grid: ElevationGrid, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Row and column of the nearest nodes."""
+    (x_min, y_min, spacing), (rows, columns) = grid.place, grid.heights.shape
+    row = np.clip(np.rint((y - y_min) / spacing), 0, rows - 1).astype(int)
+    column = np.clip(np.rint((x - x_min) / spacing), 0, columns - 1).astype(int)
+    return row, column
+
+
+def edges(heights: Float[np.ndarray, "rows columns"], step: float) -> Float[np.ndarray, "rows columns"]:
+    """1 at nodes from which the ground breaks by more than `step` [m] within `MARGIN` nodes, else 0.
+
+    A break is the second difference outwards, in eight directions: nothing on any plane, however steep.
+    """
+    rows, columns = heights.shape
+    wide = np.pad(heights, MARGIN, mode="reflect", reflect_type="odd")  # a plane goes on as one
+    out = np.zeros(heights.shape)
+
+    def shifted(dy: int, dx: int) -> np.ndarray:
+        return wide[MARGIN + dy : MARGIN + dy + rows, MARGIN + dx : MARGIN + dx + columns]
+
+    half = MARGIN // 2
+    for dy in (-1, 0, 1):
+        for dx in (-1, 0, 1):
+            outer, inner = shifted(MARGIN * dy, MARGIN * dx), shifted(half * dy, half * dx)
+            out[np.abs(outer - 2.0 * inner + heights) > step] = 1.0
+    return out
+
+
+# --- for kernels -----------------------------------------------------------------------------------
+@kernel
+def is_known(ground):
+    """Whether an `ElevationGrid` has nodes."""
+    return ground.heights.size > 0
+
+
+@kernel
+def nearest(ground, x, y):
+    """Row and column of the node nearest to a place, at the rim beyond it."""
+    rows, columns = ground.heights.shape
+    row = round((y - ground.place[1]) / ground.place[2])
+    column = round((x - ground.place[0]) / ground.place[2])
+    return min(max(row, 0), rows - 1), min(max(column, 0), columns - 1)
+
+
+@kernel
+def height_at(ground, x, y):
+    """Height of the ground [m], straight between nodes."""
+    rows, columns = ground.heights.shape
+    u = min(max((x - ground.place[0]) / ground.place[2], 0.0), columns - 1.001)
+    v = min(max((y - ground.place[1]) / ground.place[2], 0.0), rows - 1.001)
+    column, row = int(u), int(v)
+    u, v, z = u - column, v - row, ground.heights
+    low = (1.0 - u) * z[row, column] + u * z[row, column + 1]
+    high = (1.0 - u) * z[row + 1, column] + u * z[row + 1, column + 1]
+    return (1.0 - v) * low + v * high

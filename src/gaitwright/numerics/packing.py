@@ -1,0 +1,196 @@
+"""Many small arrays in one row of numbers: one table says which, and packs, views and names its columns.
+
+Why rows: a kernel called from Python costs per argument and per array handed back, 0.2 to 1 µs each, and a
+tick hands forty arrays to and fro; one row costs what one array does. The table is a `NamedTuple` or a frozen
+dataclass whose annotations say the shapes; the number of legs is the one length that differs from robot to
+robot, and follows from the length of a row.
+"""
+
+from collections import namedtuple
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, fields, is_dataclass
+from functools import cached_property
+from math import prod
+from typing import Any, ClassVar, TypeVar
+
+import numpy as np
+from jaxtyping import Float
+from numba.extending import register_jitable
+
+Row = Float[np.ndarray, "numbers"]
+
+
+@dataclass(frozen=True)
+class Column:
+    """One field of a row; `start` and `size` as (constant, per leg)."""
+
+    name: str
+    shape: tuple[str, ...]
+    """Lengths, numbers or terms in "legs"; none: a single number."""
+    is_bool: bool
+    start: tuple[int, int]
+    size: tuple[int, int]
+
+    def code(self, raw: bool = False) -> str:
+        """The field out of `row` for `n` legs, as source.
+
+        A view, but for single numbers and truths; all are views where `raw`.
+        """
+        (a, b), (c, d) = self.start, (self.start[0] + self.size[0], self.start[1] + self.size[1])
+        if not self.shape and not raw:
+            return f"float(row[{a} + {b} * n])"
+        part = f"row[{a} + {b} * n : {c} + {d} * n]"
+        if self.is_bool and not raw:
+            part = f"({part} > 0.5)"
+        if len(self.shape) < 2:
+            return part
+        return f"{part}.reshape({', '.join(self.shape).replace('legs', 'n')})"
+
+
+@dataclass(frozen=True)
+class Layout:
+    """The columns of a packed row."""
+
+    columns: tuple[Column, ...]
+
+    @classmethod
+    def of(cls, table: type, **lengths: int) -> "Layout":
+        """The layout of a `NamedTuple` or dataclass; fields without a numeric annotation are left out.
+
+        `lengths`: what other words than "legs" in its shapes stand for.
+        """
+        columns: list[Column] = []
+        start = (0, 0)
+        for name, annotation in numeric_fields(table):
+            words = getattr(annotation, "dim_str", "").split()
+            shape = tuple(str(lengths.get(word, word)) for word in words)
+            size = linear(shape)
+            is_bool = "bool" in getattr(annotation, "dtypes", ())
+            columns.append(Column(name, shape, is_bool, start, size))
+            start = (start[0] + size[0], start[1] + size[1])
+        return cls(tuple(columns))
+
+    @cached_property
+    def length(self) -> tuple[int, int]:
+        """Numbers in a row: (constant, per leg)."""
+        last = self.columns[-1]
+        return last.start[0] + last.size[0], last.start[1] + last.size[1]
+
+    def size(self, legs: int) -> int:
+        """Numbers in a row of a robot with so many legs."""
+        return self.length[0] + self.length[1] * legs
+
+    def slices(self, legs: int) -> dict[str, slice]:
+        """Where each field stands in a row of a robot with so many legs."""
+        out = {}
+        for column in self.columns:
+            start = column.start[0] + column.start[1] * legs
+            out[column.name] = slice(start, start + column.size[0] + column.size[1] * legs)
+        return out
+
+    def views(self, build: Callable[..., Any] | None = None, raw: bool = False) -> Callable[[Row], Any]:
+        """A function row → all fields, by name, or as `build` makes of them; kernels can call it.
+
+        `raw`: all of them views that can be written to, truths as 1 and 0, single numbers as arrays of one.
+        """
+        build = build or namedtuple("Fields", [column.name for column in self.columns])
+        parts = ", ".join(column.code(raw) for column in self.columns)
+        return compiled_source(f"return build({parts})", self, build)
+
+    def field(self, name: str) -> Callable[[Row], Any]:
+        """A function row → one field; kernels can call it."""
+        return compiled_source(f"return {self.named(name).code()}", self)
+
+    def start(self, name: str) -> Callable[[Row], int]:
+        """A function row → where a field begins; kernels can call it."""
+        a, b = self.named(name).start
+        return compiled_source(f"return {a} + {b} * n", self)
+
+    def named(self, name: str) -> Column:
+        """The column of a field."""
+        return next(column for column in self.columns if column.name == name)
+
+    def pack(self, values: Iterable[Any]) -> Row:
+        """The fields, in order, in one new row."""
+        return np.concatenate([np.asarray(value, dtype=np.float64).ravel() for value in values])
+
+
+def numeric_fields(table: type) -> list[tuple[str, Any]]:
+    """Name and annotation of the fields that go into a row: arrays with a shape, and floats."""
+    if is_dataclass(table):
+        pairs = [(field.name, field.type) for field in fields(table)]
+    else:
+        pairs = list(table.__annotations__.items())
+    return [(name, of) for name, of in pairs if of is float or hasattr(of, "dim_str")]
+
+
+def linear(shape: tuple[str, ...]) -> tuple[int, int]:
+    """Numbers in an array of that shape: (constant, per leg)."""
+    none, one, two = (
+        prod(int(eval(length, {"__builtins__": {}}, {"legs": legs})) for length in shape)
+        for legs in (0, 1, 2)
+    )
+    assert two - one == one - none, f"{shape} does not grow evenly with the legs"
+    return none, one - none
+
+
+def compiled_source(body: str, layout: Layout, build: Callable[..., Any] | None = None) -> Callable[..., Any]:
+    """A small function of a row, written from a layout: its offsets are constants to the compiler."""
+    constant, per_leg = layout.length
+    legs = f"n = (row.size - {constant}) // {per_leg}\n    " if per_leg else ""
+    space: dict[str, Any] = {"build": build}
+    exec(f"def read(row):\n    {legs}{body}\n", space)
+    return register_jitable(space["read"])
+
+
+P = TypeVar("P", bound="Packed")
+
+
+class Packed:
+    """A frozen dataclass that may come as one row; its fields are views of it, made when they are asked for.
+
+    `of_row` makes one of a row that nobody changes any more; `row` is that of a value made field by field.
+    """
+
+    __slots__ = ("_row",)
+    layout: ClassVar[Layout]
+    readers: ClassVar[dict[str, Callable[[Row], Any]]]
+
+    @classmethod
+    def of_row(cls: type[P], row: Row, **others: Any) -> P:
+        """The value in a row; `others`: fields that are no numbers."""
+        value = object.__new__(cls)
+        put = object.__setattr__
+        put(value, "_row", row)
+        for name, other in others.items():
+            put(value, name, other)
+        return value
+
+    @property
+    def row(self) -> Row:
+        """All numbers in one row."""
+        try:
+            return self._row
+        except AttributeError:
+            row = self.layout.pack(getattr(self, column.name) for column in self.layout.columns)
+            object.__setattr__(self, "_row", row)
+            return row
+
+    def __getattr__(self, name: str) -> Any:
+        """A field whose view was not made yet."""
+        reader = type(self).readers.get(name)
+        if reader is None:
+            raise AttributeError(f"{type(self).__name__} has no {name!r}")
+        value = reader(object.__getattribute__(self, "_row"))
+        object.__setattr__(self, name, value)
+        return value
+
+
+T = TypeVar("T", bound=type[Packed])
+
+
+def packed(table: T) -> T:
+    """Gives a dataclass below `Packed` its layout and readers."""
+    table.layout = Layout.of(table)
+    table.readers = {column.name: table.layout.field(column.name) for column in table.layout.columns}
+    return table

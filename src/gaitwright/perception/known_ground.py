@@ -1,0 +1,45 @@
+"""A scene that is known: a map that is full from the start, and a state that is sensed as it is."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gaitwright.ground.elevation import BLIND, elevation_grid
+from gaitwright.ground.scene import BLIND_STEP, SEEN_STEP, Scene
+from gaitwright.model.robot import Robot
+from gaitwright.numerics.geometry import heading, rotation
+from gaitwright.perception.scanner import Scanner
+from gaitwright.signals import GroundMap, Measured, Scan, Sensed
+
+
+@dataclass(frozen=True)
+class KnownGround:
+    """Perception of a robot that is told where it is and what the ground is like."""
+
+    ground: GroundMap
+    scanner: Scanner
+
+    @classmethod
+    def of(cls, scene: Scene, robot: Robot, sees: bool = True) -> "KnownGround":
+        """`sees`: whether feet know the ground ahead, so that it is scanned and higher steps are climbed."""
+        return cls(map_of(scene, robot, sees), Scanner.of(robot))
+
+    def perceive(self, measured: Measured, memory: None) -> tuple[Sensed, GroundMap, None]:
+        """The state as the plant has it, and the whole map."""
+        return measured, self.ground, None
+
+    def look(self, ground: GroundMap, sensed: Sensed) -> Scan | None:
+        """The ground ahead of the robot; `None` for one that does not see."""
+        return self.scanner.look(ground, sensed.position_w, heading(rotation(sensed.orientation_wb)))
+
+
+def map_of(scene: Scene, robot: Robot, sees: bool = True) -> GroundMap:
+    """Everything about a scene that a robot may know; outlines of obstacles only where it does not see."""
+    step = (SEEN_STEP if sees else BLIND_STEP) * robot.height
+    return GroundMap(
+        scene.bounds,
+        tuple(np.array(box.corners()) for box in scene.obstacles(step)),
+        scene if sees else None,
+        elevation_grid(scene, robot) if sees else BLIND,
+        step,
+    )

@@ -1,0 +1,134 @@
+"""Lap → row: the channels of a recording, and the numbers of a tick in their order."""
+
+import math
+from dataclasses import fields
+from itertools import accumulate
+from struct import Struct
+from typing import Any
+
+import numpy as np
+
+from gaitwright.locomotion import Lap
+from gaitwright.signals import MotionTarget, Route, Scan
+
+STATE = ("time", "position_w", "orientation_wb", "velocity_w", "angular_velocity_b", "q", "qd", "load", "tau")
+"""The channels that `state_hash` covers."""
+
+ROUTE = {"route_next": 2, "route_points": 1, "route_remaining": 1, "route_speed": 1, "route_arrived": 1}
+"""Next point of the path, how many are left, the way left [m], the speed wished for, and 1 at the goal;
+NaN where there is none."""
+SCAN = tuple(f"scan_{field.name}" for field in fields(Scan))
+"""The ground ahead, a channel for each field of `Scan`; NaN where nobody looked."""
+SITUATION = (*ROUTE, *SCAN)
+"""The channels that older recordings lack, and the only ones in which a number need not be finite."""
+
+
+def widths(legs: int) -> dict[str, int]:
+    """The channels of a recording and how many numbers each has; those of the situation last."""
+    return {
+        "time": 1,
+        "position_w": 3,
+        "orientation_wb": 4,
+        "velocity_w": 3,
+        "angular_velocity_b": 3,
+        "q": 3 * legs,
+        "qd": 3 * legs,
+        "load": legs,
+        "tau": 3 * legs,
+        "forces_w": 3 * legs,
+        "stance": legs,
+        "residual": 1,
+        "phase": 1,
+        "command": 3,
+        "target_w": 3,
+        "skill": 1,
+        "driver": 1,
+        "period": 1,
+        "took": 2,
+        **ROUTE,
+        **dict.fromkeys(SCAN, 1),
+    }
+
+
+def columns_of(legs: int) -> dict[str, slice]:
+    """The columns of a row that each channel has."""
+    channels = widths(legs)
+    ends = list(accumulate(channels.values()))
+    return {name: slice(end - channels[name], end) for name, end in zip(channels, ends, strict=True)}
+
+
+def always(legs: int) -> int:
+    """How many numbers come before those of the situation."""
+    return sum(width for name, width in widths(legs).items() if name not in SITUATION)
+
+
+class Packer:
+    """Packs laps into the bytes of float64: a third of the time that joining arrays takes.
+
+    Bytes know no type: whether the arrays of a plant are contiguous float64 is looked at in the first lap,
+    and where they are not, those of every lap are converted.
+    """
+
+    def __init__(self, legs: int) -> None:
+        self.size = 8 * sum(widths(legs).values())
+        self.skills: dict[str, int] = {}
+        self.drivers: dict[str, int] = {}
+        self.plain: bool | None = None
+        self.route: Route | None = None
+        self.situation = b""
+        where = MotionTarget.layout.slices(legs)
+        self.stance, self.phase, self.command = where["stance"], where["phase"], where["command"]
+        self.place = where["position_w"]
+
+    def row(self, lap: Lap) -> bytes:
+        """The numbers of a lap, in the order of `widths`."""
+        s, t, u, call = lap.sensed.row, lap.target.row, lap.command, lap.call
+        if lap.route is not self.route:
+            self.route, self.situation = lap.route, SITUATION_OF(*situation_numbers(lap.route))
+        skill = self.skills.setdefault(call.skill, len(self.skills))
+        driver = self.drivers.setdefault(call.driver, len(self.drivers))
+        pieces: tuple[Any, ...] = (
+            s,
+            u.tau,
+            u.forces_w,
+            t[self.stance],
+            ONE(u.residual),
+            t[self.phase],
+            t[self.command],
+            t[self.place],
+            FIVE(skill, driver, call.gait.period, *lap.took),
+            self.situation,
+        )
+        if self.plain is None:
+            self.plain = all(is_plain(piece) for piece in pieces)
+        row = b"".join(pieces if self.plain else map(converted, pieces))
+        assert len(row) == self.size, f"a row of {len(row)} bytes, not {self.size}: an array of another shape"
+        return row
+
+
+def situation_numbers(route: Route) -> tuple[float, ...]:
+    """The numbers of a route, in the order of `SITUATION`."""
+    x, y = route.path[0] if route.path else (math.nan, math.nan)
+    speed = math.nan if route.speed is None else route.speed
+    scan = [math.nan if route.ahead is None else getattr(route.ahead, field.name) for field in fields(Scan)]
+    left = (float(len(route.path)), route.remaining, speed, float(route.arrived))
+    return x, y, *left, *map(float, scan)
+
+
+def doubles(number: int):
+    """So many numbers → bytes."""
+    return Struct(f"{number}d").pack
+
+
+ONE, FIVE = doubles(1), doubles(5)
+SITUATION_OF = doubles(sum(ROUTE.values()) + len(SCAN))
+
+
+def is_plain(piece: bytes | np.ndarray) -> bool:
+    """Whether these bytes are those of float64, in order."""
+    return isinstance(piece, bytes) or (piece.dtype == np.float64 and piece.flags.c_contiguous)
+
+
+def converted(piece: bytes | np.ndarray) -> bytes:
+    """The bytes of float64, in order."""
+    return piece if isinstance(piece, bytes) else np.asarray(piece, dtype=np.float64).tobytes()

@@ -1,0 +1,242 @@
+"""A run, set up in one place and stepped from outside: what CLI, bench, suitability and people go through.
+
+A `Session` is a brain on a plant with a mission. Between two steps it can be given another mission or driver,
+pushed, or find its world rearranged; `walk` is a loop over it that keeps a recording.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gaitwright.control.numerical import idle
+from gaitwright.errors import NoRoom, WrongUse
+from gaitwright.ground.scene import Scene, load_scene
+from gaitwright.locomotion import Brain, Lap, Mind, think
+from gaitwright.model.robot import Robot
+from gaitwright.numerics.geometry import heading, rotation
+from gaitwright.perception.known_ground import KnownGround
+from gaitwright.record.recording import Recorder, Recording
+from gaitwright.signals import Measured, Mission
+from gaitwright.skills.library import REFERENCE_HEIGHT
+from gaitwright.stages import Plant, SimulatedPlant
+from gaitwright.termination import Ending, Termination
+
+DT = 0.002
+"""Control period [s]: 500 Hz."""
+DOG_SIZED = 0.6
+"""Robots up to this height [m] walk in scenes as they are."""
+PUSH_LASTS = 0.1
+"""How long a push lasts where nothing else is said [s]."""
+
+
+def scene_for(robot: Robot, name_or_path: str, seed: int = 0) -> Scene:
+    """A scene in a robot's size: built-in ones have every length times its height / 0.29 m, but for dogs."""
+    scale = 1.0 if robot.height <= DOG_SIZED else float(round(robot.height / REFERENCE_HEIGHT))
+    return load_scene(name_or_path, seed, scale)
+
+
+@dataclass(frozen=True, slots=True)
+class Push:
+    """A force on the body for a moment."""
+
+    impulse: float
+    """Per mass of the robot [N·s/kg]."""
+    direction: float
+    """From straight ahead, counter-clockwise [°]."""
+    at: float
+    """Earliest time [s]."""
+    phase: float | None = None
+    """Phase of the gait, in [0, 1), that it waits for; `None`: it waits for none."""
+    lasts: float = PUSH_LASTS
+    """[s]"""
+
+    def __post_init__(self) -> None:
+        if self.impulse < 0.0:
+            raise WrongUse(
+                f"the impulse of a push is not negative, as {self.impulse:g} is; turn its direction instead"
+            )
+
+    def is_due(self, lap: Lap, dt: float) -> bool:
+        """Whether it begins with this lap."""
+        if lap.sensed.time < self.at - 1e-9:
+            return False
+        return self.phase is None or (lap.target.phase - self.phase) % 1.0 < 1.5 * dt / lap.call.gait.period
+
+    def force(self, robot: Robot, lap: Lap) -> tuple[float, float, float]:
+        """The force [N], world axes, turned with the robot's heading as it begins."""
+        size = self.impulse * robot.total_mass / self.lasts
+        towards = heading(rotation(lap.sensed.orientation_wb)) + math.radians(self.direction)
+        return size * math.cos(towards), size * math.sin(towards), 0.0
+
+
+class Session:
+    """One robot's run from its start to its end.
+
+    `seed` varies the start where `vary`: pose, velocity and the phase of the gait. After the last step, or
+    `close`, the motors are off.
+    """
+
+    def __init__(
+        self,
+        brain: Brain,
+        plant: Plant,
+        mission: Mission,
+        seconds: float = 60.0,
+        seed: int = 0,
+        vary: bool = True,
+    ) -> None:
+        self.brain, self.plant = brain, plant
+        self.measured: Measured = plant.reset(seed, vary)
+        phase = float(np.random.default_rng([seed, 1]).uniform()) if vary else 0.0
+        self.mind: Mind = brain.begin(mission, self.measured, phase)
+        self.termination = Termination(brain.robot, self.mind.ground.bounds, seconds, self.measured.time)
+        self.lap: Lap | None = None
+        """The last lap; `None` before the first step."""
+        self.paused = False
+        self.closed = False
+        self.pushes: list[Push] = []
+        self.pushing_until: float | None = None
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the last lap was the last."""
+        return self.lap is not None and self.lap.stopped_because is not None
+
+    # --- going on ----------------------------------------------------------------------------------
+    def step(self) -> Lap | None:
+        """One lap: think, judge, and, unless the run is over, one control period on the plant.
+
+        `None` where it is paused or over.
+        """
+        if self.paused or self.is_over or self.closed:
+            return None
+        if not self.measured.is_finite():
+            self.lap = self.halted()
+        else:
+            lap, self.mind = think(self.brain, self.mind, self.measured)
+            ending = self.termination.judge(lap.sensed, lap.route, lap.call, lap.target, lap.command)
+            self.lap = ended(lap, ending) if ending else lap
+        if self.is_over:
+            self.close()
+        else:
+            self.push_if_due(self.lap)
+            self.measured = self.plant.step(self.lap.command)
+        return self.lap
+
+    def __iter__(self) -> Iterator[Lap]:
+        """Laps until the run is over or paused; motors off however that comes about."""
+        try:
+            while (lap := self.step()) is not None:
+                yield lap
+        finally:
+            if not self.paused:
+                self.close()
+
+    def close(self) -> None:
+        """Motors off; the run is over."""
+        if self.closed:
+            return
+        self.closed = True
+        self.plant.step(idle(self.brain.robot))
+
+    def halted(self) -> Lap:
+        """The lap of a robot whose state is no longer a number: motors off."""
+        mind, measured = self.mind, self.measured
+        target, _ = self.brain.coordinator.move(mind.memories.gait, mind.call, measured, mind.ground)
+        sentence = f"the sensed state is not a number at {measured.time:.3f} s: motors stopped"
+        return Lap(measured, mind.route, mind.call, target, idle(self.brain.robot), (0.0, 0.0), sentence)
+
+    # --- steering ----------------------------------------------------------------------------------
+    def give(self, mission: Mission) -> None:
+        """Another mission from the next step on; the gait goes on, the new way is planned from here."""
+        self.brain.controller(mission.driver)
+        sensed, ground, perceived = self.brain.perception.perceive(
+            self.measured, self.mind.memories.perception
+        )
+        scan = self.brain.perception.look(ground, sensed)
+        route, travelled = self.brain.navigator.set_out(mission, sensed, ground, scan)
+        memories = replace(self.mind.memories, perception=perceived, navigator=travelled)
+        call = self.brain.chosen(mission, route, sensed, self.mind.call, ground)
+        self.mind = replace(
+            self.mind, mission=mission, ground=ground, route=route, call=call, memories=memories
+        )
+        self.termination.set_out(sensed.time)
+
+    def drive(self, driver: str) -> None:
+        """Another driver from the next step on."""
+        self.brain.controller(driver)
+        mind = self.mind
+        memories = replace(mind.memories, control=None)
+        mission, call = replace(mind.mission, driver=driver), replace(mind.call, driver=driver)
+        self.mind = replace(mind, mission=mission, call=call, memories=memories)
+
+    def push(self, push: Push) -> None:
+        """A push that waits for its time."""
+        self.simulated()
+        self.pushes.append(push)
+
+    def push_if_due(self, lap: Lap) -> None:
+        """Begins and ends pushes when their time has come."""
+        if not self.pushes and self.pushing_until is None:
+            return
+        if self.pushing_until is not None and lap.sensed.time >= self.pushing_until - 1e-9:
+            self.simulated().push((0.0, 0.0, 0.0))
+            self.pushing_until = None
+        due = next((push for push in self.pushes if push.is_due(lap, self.plant.dt)), None)
+        if due is not None and self.pushing_until is None:
+            self.pushes.remove(due)
+            self.simulated().push(due.force(self.brain.robot, lap))
+            self.pushing_until = lap.sensed.time + due.lasts
+
+    def rearrange(self, scene: Scene) -> None:
+        """Another arrangement of the world from the next step on: an obstacle moved, say. It is known."""
+        self.simulated().rearrange(scene)
+        sees = self.mind.ground.elevation is not None
+        perception = KnownGround.of(scene, self.brain.robot, sees)
+        self.brain = replace(self.brain, perception=perception)
+        self.give(self.mind.mission)
+
+    def simulated(self) -> SimulatedPlant:
+        """The plant, where its world can be interfered with; `WrongUse` where it is a real one."""
+        if not isinstance(self.plant, SimulatedPlant):
+            raise WrongUse(f"a {type(self.plant).__name__} is no simulation: nothing can be pushed or moved")
+        return self.plant
+
+
+def ended(lap: Lap, ending: Ending) -> Lap:
+    """The last lap of a run."""
+    return replace(lap, stopped_because=ending.because, arrived=ending.arrived, fell=ending.fell)
+
+
+def walk(  # noqa: PLR0913 - the door to everything; most calls name three of these
+    brain: Brain,
+    plant: Plant,
+    mission: Mission,
+    seconds: float = 60.0,
+    seed: int = 0,
+    vary: bool = True,
+    scene: str = "",
+    watch: Callable[[Lap], None] | None = None,
+) -> Recording:
+    """Takes a robot through a mission; an interrupt (Ctrl-C) keeps what was recorded.
+
+    `watch`, where given, is called with every lap.
+    """
+    return record(Session(brain, plant, mission, seconds, seed, vary), seed, scene, watch)
+
+
+def record(
+    session: Session, seed: int = 0, scene: str = "", watch: Callable[[Lap], None] | None = None
+) -> Recording:
+    """Steps a session to its end and keeps every lap; an interrupt or a full disk keeps what was recorded."""
+    recorder = Recorder(session.brain.robot, scene, seed, session.plant.dt)
+    try:
+        for lap in session:
+            recorder.add(lap)
+            if watch is not None:
+                watch(lap)
+    except (KeyboardInterrupt, NoRoom):
+        pass
+    return recorder.finish()
