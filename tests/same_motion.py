@@ -1,8 +1,11 @@
 """The proof of a redesign: the same commands move the same robots bit for bit, before and after.
 
-    python tests/same_motion.py REVISION     # REVISION beside the files as they are now
-    python tests/same_motion.py --now        # only now: prints each command's state hash
+    python tests/same_motion.py REVISION          # REVISION beside the files as they are now
+    python tests/same_motion.py --now             # only now: prints each command's state hash
+    python tests/same_motion.py --write FILE      # only now: keeps them in a file
+    python tests/same_motion.py --against FILE    # those of such a file beside now
 
+`--only WORDS` goes with each: only the commands in which these words stand, `--only rough` for instance.
 Thirty commands over skills, robots, plants, drivers and terrains run in two processes, one on a git worktree
 of the revision and one on this checkout, both with the packages installed here. A line each: the command, the
 two hashes, whether they agree. Exit code 1 where any differs. Hashes of two machines need not agree; those of
@@ -18,6 +21,7 @@ import shlex
 import subprocess
 import sys
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
@@ -56,12 +60,20 @@ COMMANDS = (
 )
 
 
-def hashes() -> dict[str, str]:
+def chosen(words: str) -> tuple[str, ...]:
+    """The commands in which these words stand."""
+    commands = tuple(command for command in COMMANDS if words in command)
+    if not commands:
+        raise SystemExit(f"no command has {words!r} in it; there is:\n" + "\n".join(COMMANDS))
+    return commands
+
+
+def hashes(commands: Sequence[str]) -> dict[str, str]:
     """Command → its state hash, or what it ended with where it made none."""
     from gaitwright.cli import main
 
     found = {}
-    for command in COMMANDS:
+    for command in commands:
         out, errors = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
             code = main([*shlex.split(command), "--json", "-"])
@@ -73,14 +85,15 @@ def hashes() -> dict[str, str]:
     return found
 
 
-def started(root: Path, answer: Path) -> subprocess.Popen:
+def started(root: Path, answer: Path, words: str) -> subprocess.Popen:
     """A process that writes the hashes of the code under `root` to `answer`."""
     script = Path(__file__).resolve()
     environment = {**os.environ, "PYTHONPATH": str(root / "src")}
-    return subprocess.Popen([sys.executable, str(script), "--write", str(answer)], env=environment, cwd=root)
+    command = [sys.executable, str(script), f"--only={words}", "--write", str(answer)]
+    return subprocess.Popen(command, env=environment, cwd=root)
 
 
-def compare(revision: str) -> int:
+def compare(revision: str, words: str) -> int:
     """Runs both sides at once and prints both columns; the number of commands that differ."""
     with tempfile.TemporaryDirectory() as folder:
         before, answers = Path(folder) / "before", [Path(folder) / f"{side}.json" for side in "bn"]
@@ -88,7 +101,8 @@ def compare(revision: str) -> int:
             ["git", "worktree", "add", "--quiet", "--detach", before, revision], cwd=ROOT, check=True
         )
         try:
-            sides = [started(root, answer) for root, answer in zip((before, ROOT), answers, strict=True)]
+            places = zip((before, ROOT), answers, strict=True)
+            sides = [started(root, answer, words) for root, answer in places]
             if any([side.wait() for side in sides]):
                 raise SystemExit("one side did not come to its end")
             was, now = (json.loads(answer.read_text(encoding="utf-8")) for answer in answers)
@@ -98,31 +112,38 @@ def compare(revision: str) -> int:
 
 
 def show(was: dict[str, str], now: dict[str, str]) -> int:
-    """Prints both columns; how many commands differ."""
-    for command in COMMANDS:
-        told = "same" if was[command] == now[command] else "DIFFERENT"
-        print(f"{was[command][:16]:16}  {now[command][:16]:16}  {told:9}  {command}")
-    differ = sum(was[command] != now[command] for command in COMMANDS)
-    print(f"{len(COMMANDS) - differ} of {len(COMMANDS)} the same")
+    """Prints both columns for every command of now; how many differ, or were not there before."""
+    differ = 0
+    for command, found in now.items():
+        before = was.get(command, "not there")
+        differ += before != found
+        told = "same" if before == found else "DIFFERENT"
+        print(f"{before[:16]:16}  {found[:16]:16}  {told:9}  {command}")
+    print(f"{len(now) - differ} of {len(now)} the same")
     return differ
 
 
-def main() -> int:
+def main(words: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("revision", nargs="?", default="HEAD", help="what to compare with (HEAD)")
     parser.add_argument("--now", action="store_true", help="only the files as they are now")
-    parser.add_argument("--write", metavar="FILE", help=argparse.SUPPRESS)
-    args = parser.parse_args()
-    if args.now or args.write:
-        found = hashes()
-        if args.write:
-            Path(args.write).write_text(json.dumps(found), encoding="utf-8")
-        else:
-            show(found, found)
-        return 0
-    return 1 if compare(args.revision) else 0
+    parser.add_argument("--write", metavar="FILE", help="only the files as they are now, kept in a file")
+    parser.add_argument("--against", metavar="FILE", help="what --write kept, in place of a revision")
+    parser.add_argument("--only", metavar="WORDS", default="", help="only commands with these words")
+    args = parser.parse_args(words)
+    commands = chosen(args.only)
+    if not (args.now or args.write or args.against):
+        return 1 if compare(args.revision, args.only) else 0
+    now = hashes(commands)
+    if args.now:
+        print("\n".join(f"{told}  {command}" for command, told in now.items()))
+    if args.write:
+        Path(args.write).write_text(json.dumps(now), encoding="utf-8")
+    if args.against:
+        return 1 if show(json.loads(Path(args.against).read_text(encoding="utf-8")), now) else 0
+    return 0
 
 
 if __name__ == "__main__":

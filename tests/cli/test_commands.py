@@ -1,15 +1,16 @@
 """The commands at work: exit codes, what they print, what they write, what they refuse."""
 
 import json
+import signal
 import stat
+import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
 from gaitwright import bench
-from gaitwright.cli import console, main, trips
-from gaitwright.locomotion import Lap
+from gaitwright.cli import main, trips
 from gaitwright.record.recording import load
 from gaitwright.skills.library import skill_names
 
@@ -67,8 +68,11 @@ def test_a_push_that_topples_the_robot_is_exit_code_1(capsys: pytest.CaptureFixt
 
 
 def test_both_force_distributions_walk(capsys: pytest.CaptureFixture[str]):
-    qp, lp = (reported([*SKILL, "--distribution", method], capsys) for method in ("qp", "lp"))
+    words = ["skill", "--seconds", "0.8", "--distribution"]
+    qp, lp = (reported([*words, method], capsys) for method in ("qp", "lp"))
     assert qp["state_hash"] != lp["state_hash"]
+    for report in (qp, lp):
+        assert report["falls"] == 0 and report["distance_m"] == pytest.approx(0.4 * 0.8, rel=0.3)
 
 
 # --- mission ---------------------------------------------------------------------------------------
@@ -184,19 +188,28 @@ def test_a_missing_extra_is_a_line_not_a_failure(
 
 
 # --- interrupts, pipes, defects --------------------------------------------------------------------
-def test_ctrl_c_keeps_the_report_and_the_recording(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-):
-    def press(self: console.Simulating, lap: Lap) -> None:
-        if lap.sensed.time > 0.2:
-            raise KeyboardInterrupt
+HEARING = """
+import signal, sys
+from gaitwright.cli import main
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs are started deaf to it
+sys.exit(main(sys.argv[1:]))
+"""
 
-    monkeypatch.setattr(console.Simulating, "__call__", press)
-    assert main(["skill", "--json", "-", "--out", "run"]) == 130
-    out, err = capsys.readouterr()
-    assert json.loads(out)["stopped_because"] == "interrupted"
-    assert "interrupted after 0.2 s; kept: the report, and the recording in run" in err
-    assert (tmp_path / "run" / "recording.npz").is_file()
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no process can press Ctrl-C for another")
+def test_ctrl_c_keeps_the_report_and_the_recording(tmp_path: Path):
+    """A signal to a process that simulates, as the terminal sends it, after its first line of progress."""
+    words = [sys.executable, "-c", HEARING, "skill", "--seconds", "600", "--json", "-", "--out", "run"]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        told = next((line for line in process.stderr if line.startswith("simulating")), None)
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=60)
+    assert told is not None and process.returncode == 130
+    report = json.loads(out)
+    assert report["stopped_because"] == "interrupted" and 0.0 < report["duration_s"] < 600.0
+    kept = f"interrupted after {report['duration_s']:.1f} s; kept: the report, and the recording in run"
+    assert kept in err and "Traceback" not in err
+    assert len(load("run/recording.npz")["time"]) == pytest.approx(report["duration_s"] / 0.002, abs=2)
 
 
 def test_our_own_mistakes_show_where_they_are(

@@ -168,6 +168,7 @@ def test_a_value_above_the_leaves_is_filled_below_it(capsys):
 
 def test_whatever_is_true_of_all_values():
     """What is said of the trees left open, against all of their values."""
+    found = set()
     for words in (["speed=slow"], ["ground=flat"], ["ground=slope"], ["ground=firm", "speed=calm"], []):
         values = said(words, FOREST)
         situation = asked(BOOK, values, {})
@@ -179,6 +180,8 @@ def test_whatever_is_true_of_all_values():
         ]
         alike = len({consult(BOOK, other).rule for other in every}) == 1
         assert whatever(BOOK, situation).startswith("That is so" if alike else "What was left open matters")
+        found.add(alike)
+    assert found == {True, False}
 
 
 def test_the_last_lesson_comes_first():

@@ -70,6 +70,7 @@ def test_forces_before_the_first_moment_count(trot: list[Lap]) -> None:
     whole = stream([job_of(dog, trot)])[0]
     rest = replace(job_of(dog, trot[500:]), start=whole.forces_w[499])
     np.testing.assert_array_equal(stream([rest])[0].tau, whole.tau[500:])
+    assert (stream([replace(rest, start=None)])[0].tau != whole.tau[500:]).any()
 
 
 def test_held_dynamics_cost_accuracy_and_only_that(trot: list[Lap]) -> None:

@@ -142,13 +142,15 @@ def test_contact_points_are_where_feet_in_stance_were_last_felt(gait: Gait, phas
 @given(st.sampled_from(MOVING), phases, seeds)
 @settings(max_examples=25)
 def test_a_swing_or_search_begins_where_the_foot_is(gait: Gait, phase: float, seed: int) -> None:
-    rng, state = np.random.default_rng(seed), at(phase)
-    for _ in range(200):
+    rng, state, lifted = np.random.default_rng(seed), at(phase), np.zeros(4, dtype=bool)
+    for _ in range(round(1.1 * gait.period / DT)):
         feet = FEET + rng.normal(0.0, 0.1, (4, 3))
         was, _, _ = tick(state, gait, rng.random(4) < 0.7, feet)
         began = (state.mode != was) & (state.mode != STANCE)
         np.testing.assert_array_equal(state.origin[began], feet[began])
         assert (state.progress[began] == 0.0).all()
+        lifted |= began
+    assert lifted.all()
 
 
 # --- how much a leg carries ----------------------------------------------------------------------

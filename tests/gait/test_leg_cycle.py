@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import BPoly, PchipInterpolator, make_interp_spline
 
@@ -135,10 +135,10 @@ def test_between_turning_points_the_spline_is_that_of_scipy(s: np.ndarray, steps
         np.testing.assert_array_equal(shape_preserving(s, y), (slope, curvature))
 
 
-@given(some_points())
-def test_limited_slopes_and_curvatures_are_always_monotone_and_level_where_pchip_is(points) -> None:
+@given(some_points(), st.integers(0, 2**32 - 1))
+def test_limited_slopes_and_curvatures_are_always_monotone_and_level_where_pchip_is(points, seed) -> None:
     s, y = points
-    wild = np.random.default_rng().normal(0.0, 50.0, (2, len(s)))
+    wild = np.random.default_rng(seed).normal(0.0, 50.0, (2, len(s)))
     slope, curvature = limited(s, y, *wild)
     assert monotone(s, y, slope, curvature).all()
     level = PchipInterpolator(s, y)(s, 1)[1:-1] == 0.0
@@ -332,7 +332,9 @@ def test_a_hasty_point_asks_too_much_of_joints() -> None:
 def test_what_is_found_is_really_there(points, pace: float) -> None:
     robot = dog()
     cycle = LegCycle("any", points)
-    for kind, fault in faults(cycle, robot, "trot", pace).items():
+    found = faults(cycle, robot, "trot", pace)
+    assume(found)
+    for kind, fault in found.items():
         assert 1 <= fault.point <= len(points) and fault.leg in robot.legs
         assert fault.measure < fault.limit if kind == "ground" else fault.measure != fault.limit
         assert fault.measure > fault.limit or kind in {"ground", "reach"}

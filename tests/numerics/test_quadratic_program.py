@@ -66,13 +66,15 @@ def test_the_minimum_is_quadprogs(seed: int) -> None:
 
 @given(seeds)
 def test_limits_that_exclude_each_other_name_a_culprit(seed: int) -> None:
-    hessian, gradient, rows, lower, upper = program(seed)
-    rows[1], lower[len(gradient) + 1] = rows[0], upper[len(gradient)] + 0.1
-    upper[len(gradient) + 1] = lower[len(gradient) + 1] + 1.0
+    """All others leave room enough: the culprit is one of the two, and without it there is an answer."""
+    hessian, gradient, rows, lower, upper = program(seed, room=1e3)
+    first, second = len(gradient), len(gradient) + 1
+    rows[1], upper[first] = rows[0], 0.5
+    lower[second], upper[second] = 0.6, 1.6
     _, _, code, culprit = minimise(hessian, gradient, rows, lower, upper)
-    assert code == INFEASIBLE
-    # Without the culprit there is room, unless other limits exclude each other too.
-    assert 0 <= culprit < len(lower)
+    assert code == INFEASIBLE and culprit in (first, second)
+    lower[culprit], upper[culprit] = -1e3, 1e3
+    assert minimise(hessian, gradient, rows, lower, upper)[2] == SOLVED
 
 
 def test_a_price_tells_what_a_limit_costs() -> None:

@@ -408,9 +408,9 @@ def test_the_thesis_robot_walks_at_its_speed() -> None:
 
     record = hold(plant, "walk", 6.0, 3, watch)
     assert record.done and not record.fell
-    late = record["velocity_w"][1500:]
+    ahead = np.array([rotation(turn)[:2, 0] for turn in record["orientation_wb"][1500:]])
     wanted = LIBRARY["walk"].speed * speed_scale(plant.robot)
-    assert np.linalg.norm(late[:, :2].mean(axis=0)) == pytest.approx(wanted, rel=0.1)
+    assert (record["velocity_w"][1500:, :2] * ahead).sum(axis=1).mean() == pytest.approx(wanted, rel=0.1)
     assert np.abs(record["tau"] / plant.robot.tau_max.ravel()).max() <= 1.0
     assert max(sag) < 0.03
 
@@ -539,5 +539,5 @@ def test_the_checks_are_figures_too(more: list[str], capsys: pytest.CaptureFixtu
 def test_what_does_not_fit_is_one_sentence(words, sentence: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["skill", "--seconds", "0.1", *words]) == 2
     out, err = capsys.readouterr()
-    assert out == "" and err.count("\n") <= 2
+    assert out == "" and err.count("\n") == 1
     assert sentence in err

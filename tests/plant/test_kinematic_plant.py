@@ -72,7 +72,7 @@ def test_standing_feet_stay_no_foot_is_in_the_ground_and_no_joint_beyond_its_lim
     brain, plant = brain_of(robot, "walk", "kinematic", ground), KinematicPlant(robot, ground, DT)
     sensed = plant.reset(5)
     mind = brain.begin(Mission(()), sensed)
-    slid = 0.0
+    slid, stood = 0.0, 0
     for tick in range(700):
         lap, mind = think(brain, mind, sensed)
         after = plant.step(lap.command)
@@ -81,9 +81,11 @@ def test_standing_feet_stay_no_foot_is_in_the_ground_and_no_joint_beyond_its_lim
         assert (robot.q_min - 1e-12 <= after.q).all() and (after.q <= robot.q_max + 1e-12).all()
         stay = lap.target.stance & (after.load > 0.0)
         if tick > 0 and stay.any():
+            stood += 1
             slid = max(slid, float(np.abs(after_w - before_w)[stay].max()))
         sensed = after
     assert sensed.position_w[0] > 0.5
+    assert stood > 600
     assert slid < 1e-6, f"a standing foot slid {slid} m in a tick"
 
 
@@ -101,6 +103,7 @@ def test_velocities_are_what_moved_and_the_weight_is_shared() -> None:
                            step[:, 1, 0] - step[:, 0, 1]], axis=1)  # fmt: skip
     np.testing.assert_allclose(skew, 2.0 * half, atol=1e-6)
     loaded = record["load"].sum(axis=1)
+    assert (loaded > 0.0).mean() > 0.9
     np.testing.assert_allclose(loaded[loaded > 0.0], robot.total_mass * 9.81)
 
 

@@ -123,10 +123,13 @@ def test_a_book_on_a_medium_without_writing_is_read(tmp_path):
     book.save(path)
     path.chmod(0o400)
     tmp_path.chmod(0o500)
+    before = (tmp_path.stat().st_mtime_ns, path.stat().st_mtime_ns, path.read_bytes())
     try:
         assert Skillbook.load(path) == book
     finally:
         tmp_path.chmod(0o700)
+    # Where permissions bind nobody (root), this tells that nothing was made there.
+    assert (tmp_path.stat().st_mtime_ns, path.stat().st_mtime_ns, path.read_bytes()) == before
 
 
 def test_what_no_file_can_hold_is_said_before_it_is_written(tmp_path):

@@ -71,12 +71,15 @@ def test_what_two_truthful_teachers_taught_is_all_there(seed):
     assert [(a.how, a.name) for a in merged.book.ancestors[-2:]] == [("merged", "a"), ("merged", "b")]
     reported = {i for conflict in merged.conflicts for i in (*conflict.ours, *conflict.theirs)}
     mine = {step.lesson.situation for step in ours.steps if step.lesson}
+    looked_at = 0
     for book in (ours, theirs):
         for told in (step.lesson for step in book.steps if step.how == "taught"):
             stays = book is theirs and told.situation in mine  # where both were taught, ours stays
             if follows(book.rulebook, told) and not stays:
+                looked_at += 1
                 kept = does(merged.book, told.situation) == told.rule
                 assert kept or {told.id, f"{told.id} of b"} & reported
+    assert looked_at > 10
     if not merged.conflicts:
         assert merge(merged.book, theirs).book == merged.book
 
@@ -94,10 +97,13 @@ def test_of_teachers_who_contradict_each_other_nothing_is_lost_without_a_word(se
     merged = merge(ours, theirs)
     sound(merged)
     reported = {i for conflict in merged.conflicts for i in (*conflict.ours, *conflict.theirs)}
+    looked_at = 0
     for step in theirs.steps[len(base.steps) :]:
         if step.how == "taught" and follows(theirs.rulebook, step.lesson):
+            looked_at += 1
             kept = does(merged.book, step.lesson.situation) == step.lesson.action.skill
             assert kept or {step.lesson.id, f"{step.lesson.id} of b"} & reported
+    assert looked_at
 
 
 def lesson(rule, situation, **more):

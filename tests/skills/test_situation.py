@@ -12,7 +12,6 @@ from gaitwright.knowledge.memory import Action
 from gaitwright.model.kinematics import angles, feet
 from gaitwright.numerics.geometry import GRAVITY, rotation
 from gaitwright.signals import Scan
-from gaitwright.skills.library import LIBRARY, gait_of
 from gaitwright.skills.rule_chooser import carry_out
 from gaitwright.skills.situation import FOREST, READ_FROM, measured, named, torque_utilisation, turn_of
 from oracles import robot_called
@@ -125,4 +124,3 @@ def test_what_it_does_is_the_kind_of_motion():
     for skill, kind in (kinds | {"gallop": "flying"}).items():
         call = replace(carry_out(DOG, Action("trot", 0.0, 1.0), route((5.0, 0.0)), sensed()), skill=skill)
         assert situation(DOG, route((5.0, 0.0)), sensed(), call)["doing"] == kind
-        assert gait_of(LIBRARY[skill], DOG).period > 0.0
