@@ -14,12 +14,13 @@ from gaitwright.cli.recorded_moment import situation_at
 from gaitwright.description.load import load_robot
 from gaitwright.errors import NoRoom
 from gaitwright.ground.scene import load_scene
-from gaitwright.locomotion import Brain, Lap, trip
+from gaitwright.locomotion import Brain, Lap
 from gaitwright.plant.mujoco.simulation import MujocoPlant
 from gaitwright.record import metrics, rows
 from gaitwright.record.channels import SITUATION
 from gaitwright.record.moment import call_at, route_at, sensed_at
 from gaitwright.record.recording import Recorder, Recording, load
+from gaitwright.session import Session
 from gaitwright.signals import Mission
 from gaitwright.skills.situation import situation
 
@@ -32,7 +33,7 @@ def laps() -> list[Lap]:
     """Go2 on its way to a goal behind stairs: 1501 ticks."""
     scene = load_scene("stairs:0.1", 0)
     plant = MujocoPlant(ROBOT, scene)
-    return list(trip(Brain.of(ROBOT, scene), plant, Mission(((6.0, 1.0),)), 3.0, vary=False))
+    return list(Session(Brain.of(ROBOT, scene), plant, Mission(((6.0, 1.0),)), 3.0, vary=False))
 
 
 def recorded(laps: list[Lap]) -> Recording:
@@ -248,7 +249,7 @@ from dataclasses import replace
 from itertools import cycle, islice
 from pathlib import Path
 from gaitwright import Brain, Mission, load_robot, load_scene
-from gaitwright.locomotion import trip
+from gaitwright.session import Session
 from gaitwright.pictures import trip_picture
 from gaitwright.plant.mujoco.simulation import MujocoPlant
 from gaitwright.record.recording import Recorder, load
@@ -273,7 +274,7 @@ def made_of(laps, ticks, name):
 
 robot, scene = load_robot("go2"), load_scene("flat", 0)
 brain = Brain.of(robot, scene, fixed_skill(robot, "trot", 0.4, 0.0, 0.3, "numerical"))
-laps = list(trip(brain, MujocoPlant(robot, scene), Mission(()), 1.0))
+laps = list(Session(brain, MujocoPlant(robot, scene), Mission(()), 1.0))
 made_of(laps, 30_000, "short.npz")
 before = peak()
 made_of(laps, int(sys.argv[1]), "long.npz")

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from gaitwright.bench.context import Session
+from gaitwright.bench.context import Context
 from gaitwright.bench.evidence.children import ChildFailed, Children, can_measure
 from gaitwright.bench.measurement import Figure, at_most
 
@@ -16,14 +16,14 @@ NOTE = (
 )
 
 
-def measure(session: Session) -> Iterator[Figure]:
+def measure(context: Context) -> Iterator[Figure]:
     """The peak of one long run."""
-    seconds = session.seconds(HOUR, QUICK)
+    seconds = context.seconds(HOUR, QUICK)
     what = "an hour of trot: peak memory" if seconds == HOUR else f"{seconds:g} s of trot: peak memory"
     if not can_measure():
         yield Figure(what, float("nan"), "MB", WANTED, 0, "this system does not tell what a child took")
         return
-    session.voice.say(f"memory: {seconds:g} s of trot, some minutes for an hour")
+    context.voice.say(f"memory: {seconds:g} s of trot, some minutes for an hour")
     with Children() as children:
         try:
             children.gaitwright(*trotting(1.0), "warm")  # compiling takes more than running
