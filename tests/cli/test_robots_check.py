@@ -162,7 +162,7 @@ def test_a_stance_beyond_its_limits_is_told():
     low[2, 2] = -1.0
     assert stance_with(GO2, q_min=low).verdict == "no"
     assert "the knee of RL stands" in stance_with(GO2, q_min=low).sentence
-    feet = GO2.stance.copy()
+    feet = GO2.nominal_feet.copy()
     feet[:2, 2] -= 0.03
     assert "0.030 m from being level" in stance_with(GO2, stance=feet).sentence
 

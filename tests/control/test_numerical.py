@@ -38,7 +38,7 @@ UP = np.array([0.0, 0.0, 1.0])
 def standing(robot: Robot) -> Sensed:
     """The robot at rest in its nominal stance."""
     still, joints = np.zeros(3), np.zeros((robot.n, 3))
-    q, _ = angles(robot, robot.stance)
+    q, _ = angles(robot, robot.nominal_feet)
     load = np.full(robot.n, robot.total_mass * GRAVITY / robot.n)
     return Sensed(0.0, robot.height * UP, np.array([1.0, 0, 0, 0]), still, still.copy(), q, joints, load)
 
@@ -100,7 +100,7 @@ def anything(
         rotation_wb=rotation(np.array([1.0, *np.clip(off(3), -5, 5)])),
         angular_velocity_w=robot.natural_frequency * off(3),
         angular_acceleration_w=robot.natural_frequency**2 * off(3),
-        feet_w=sensed.position_w + robot.stance + size * off(robot.n, 3),
+        feet_w=sensed.position_w + robot.nominal_feet + size * off(robot.n, 3),
         feet_velocity_w=pace * off(robot.n, 3),
         feet_acceleration_w=GRAVITY * off(robot.n, 3),
     )
@@ -200,7 +200,7 @@ def test_without_a_foot_down_the_body_is_left_to_fall(name: str, rng: np.random.
     nobody = np.zeros(robot.n, dtype=bool)
     falling = replace(
         anything(robot, s, nobody, rng, much=0.5),
-        feet_w=s.position_w + robot.stance,
+        feet_w=s.position_w + robot.nominal_feet,
         feet_velocity_w=np.zeros((robot.n, 3)),
         feet_acceleration_w=np.tile(-GRAVITY * UP, (robot.n, 1)),
     )
@@ -328,7 +328,7 @@ def test_standing_torques_balance_gravity(name: str, method: str) -> None:
     torques, memory = controller.command(target, s)
     torques, memory = controller.command(target, s, memory)
     assert torques.status == "solved" and torques.residual < 1e-3
-    arm = robot.stance - robot.foot_radius[:, None] * UP
+    arm = robot.nominal_feet - robot.foot_radius[:, None] * UP
     _, data = mujoco_forward(robot, s, torques.tau, arm, torques.forces_w)
     assert np.abs(data.qacc[:3]).max() < 2e-3 * GRAVITY
     assert np.abs(data.qacc[3:6]).max() < 1e-2 * robot.natural_frequency**2

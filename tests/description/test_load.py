@@ -116,9 +116,9 @@ def test_inverse_dynamics_agrees_with_mujoco(pair):
 
 def test_nominal_stance_is_reached_inside_the_limits(pair):
     robot, _, _ = pair
-    q, reached = angles(robot, robot.stance)
+    q, reached = angles(robot, robot.nominal_feet)
     assert reached.all()
-    assert feet(robot, q) == pytest.approx(robot.stance, abs=1e-9)
+    assert feet(robot, q) == pytest.approx(robot.nominal_feet, abs=1e-9)
     assert (q >= robot.q_min).all()
     assert (q <= robot.q_max).all()
     assert robot.height > 0.0
@@ -127,7 +127,7 @@ def test_nominal_stance_is_reached_inside_the_limits(pair):
 
 def test_pairs_are_mirrored(pair):
     robot, _, _ = pair
-    left, right = robot.stance[0::2], robot.stance[1::2]
+    left, right = robot.nominal_feet[0::2], robot.nominal_feet[1::2]
     assert left == pytest.approx(right * (1.0, -1.0, 1.0), abs=2e-3 * robot.leg_length)
     assert (np.diff(robot.hip[0::2, 0]) < 0.0).all()
 
@@ -154,17 +154,17 @@ def test_the_robot_of_the_thesis_stands_as_in_its_table(name, mass):
     """Angles of Table 6.1 (equations.md §6) follow from the lengths by the general rule."""
     robot = load_robot(name)
     assert robot.total_mass == pytest.approx(mass)
-    q, _ = angles(robot, robot.stance)
+    q, _ = angles(robot, robot.nominal_feet)
     assert q == pytest.approx(np.tile([0.0, 0.382518, -0.334318], (4, 1)), abs=1e-6)
-    assert robot.stance[:, 2] == pytest.approx(-2.5)
-    assert np.abs(robot.stance[:, 1]) == pytest.approx(3.0)
+    assert robot.nominal_feet[:, 2] == pytest.approx(-2.5)
+    assert np.abs(robot.nominal_feet[:, 1]) == pytest.approx(3.0)
 
 
 def test_hexapod_carries_itself_on_three_legs():
     robot = load_robot("hexapod")
     on_a_foot = robot.total_mass * GRAVITY / 3.0
-    q, _ = angles(robot, robot.stance)
-    lever = np.abs(robot.stance[:, 1]) - np.abs(robot.hip[:, 1]) - robot.offset[:, 0, 2]
+    q, _ = angles(robot, robot.nominal_feet)
+    lever = np.abs(robot.nominal_feet[:, 1]) - np.abs(robot.hip[:, 1]) - robot.offset[:, 0, 2]
     assert (robot.tau_max[:, 1] >= 2.5 * on_a_foot * lever).all()
     lever = lever - robot.offset[:, 1, 2] * np.cos(q[:, 1])
     assert (robot.tau_max[:, 2] >= 2.5 * on_a_foot * np.abs(lever)).all()

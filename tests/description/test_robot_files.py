@@ -111,11 +111,11 @@ def test_feet_of_other_shapes(tmp_path, foot, centre, radius):
 def test_a_box_for_a_foot_touches_the_ground_where_it_is_lowest(tmp_path):
     """The sphere's lowest point and the box's lowest edge are at one height in the nominal stance."""
     robot, _ = read(tmp_path, mjcf(legs(foot='<geom type="box" size=".01 .02 .1" pos="0 0 -.1"/>')))
-    q, _ = angles(robot, robot.stance)
+    q, _ = angles(robot, robot.nominal_feet)
     turn = q[0, 1] + robot.sign[0] * q[0, 2]
     knee = -0.2 * np.cos(q[0, 1])
     box_low = knee - 0.2 * np.cos(turn) - 0.01 * abs(np.sin(turn))
-    assert robot.stance[0, 2] - robot.foot_radius[0] == pytest.approx(box_low, abs=2e-3)
+    assert robot.nominal_feet[0, 2] - robot.foot_radius[0] == pytest.approx(box_low, abs=2e-3)
     assert robot.foot_radius[0] == pytest.approx(0.02)
 
 

@@ -99,7 +99,7 @@ def with_feet(
 def standing(name: str, rng: np.random.Generator):
     """A robot near its nominal stance, on the move, and the demand to stay as it is."""
     robot = robot_called(name)
-    q, _ = angles(robot, robot.stance)
+    q, _ = angles(robot, robot.nominal_feet)
     still, joints, rate = np.zeros(3), np.zeros((robot.n, 3)), robot.natural_frequency
     s = Sensed(
         0.0, robot.height * UP, np.array([1.0, 0, 0, 0]), 0.05 * robot.height * rate * rng.uniform(-1, 1, 3),

@@ -44,7 +44,7 @@ def any_case(name: str, seed: int):
 def standing(name: str) -> tuple:
     """A robot in its nominal stance, moving straight on, and its diagonal feet."""
     robot = robot_called(name)
-    q, _ = angles(robot, robot.stance)
+    q, _ = angles(robot, robot.nominal_feet)
     joints, still = np.zeros((robot.n, 3)), np.zeros(3)
     velocity = np.array([0.3, 0.1, 0.0])
     s = Sensed(0.0, robot.height * UP, np.array([1.0, 0, 0, 0]), velocity, still, q, joints, np.ones(robot.n))

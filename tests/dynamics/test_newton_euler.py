@@ -187,7 +187,7 @@ def test_joint_accelerations_give_the_feet_theirs(name: str, rng: np.random.Gene
 
 def robot_stance(robot: Robot) -> np.ndarray:
     """Angles of the nominal stance."""
-    return angles(robot, robot.stance)[0]
+    return angles(robot, robot.nominal_feet)[0]
 
 
 def test_three_columns_are_solved_exactly(rng: np.random.Generator) -> None:

@@ -30,7 +30,7 @@ def call_of(skill: str, velocity=(0.3, -0.1), turn: float = 0.4, robot: Robot = 
 
 def story(rng: np.random.Generator, ticks: int, robot: Robot = DOG) -> list[Sensed]:
     """What a robot might sense while it stumbles along: no physics, but nothing impossible."""
-    q, _ = angles(robot, robot.stance)
+    q, _ = angles(robot, robot.nominal_feet)
     yaw, place = rng.uniform(-3.0, 3.0), np.array([*rng.uniform(-2.0, 2.0, 2), robot.height])
     load, told = np.full(robot.n, robot.total_mass * GRAVITY / robot.n), []
     for tick in range(ticks):
@@ -238,7 +238,7 @@ def test_a_target_fits_together(name: str, skill: str) -> None:
 
 def test_standing_wants_the_body_where_it_is_over_its_feet() -> None:
     sensed = story(np.random.default_rng(3), 1)[0]
-    still = replace(sensed, velocity_w=np.zeros(3), load=np.full(4, 40.0), q=angles(DOG, DOG.stance)[0],
+    still = replace(sensed, velocity_w=np.zeros(3), load=np.full(4, 40.0), q=angles(DOG, DOG.nominal_feet)[0],
                     orientation_wb=yaw_quaternion(0.7))  # fmt: skip
     target = follow([still] * 200, call_of("stand", (0.0, 0.0), 0.0), 0.0)[-1][0]
     np.testing.assert_allclose(target.position_w[:2], still.position_w[:2], atol=1e-12)

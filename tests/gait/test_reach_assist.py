@@ -16,7 +16,7 @@ offsets = st.lists(st.floats(-0.15, 0.15), min_size=12, max_size=12)
 
 def shift_for(off: np.ndarray, duty: float = 0.75) -> tuple[np.ndarray, np.ndarray]:
     """The shift for feet so far off their nominal stance, and the feet, seen from the base."""
-    feet = DOG.stance + off
+    feet = DOG.nominal_feet + off
     state = standing(feet, np.zeros(3), 0.0, 0.0).state
     return np.array(helping_shift(DOG.arrays, state, LEVEL, (0.0, 0.0, 0.0), feet, duty, H)), feet
 

@@ -64,7 +64,7 @@ def test_a_robot_that_stands_on_a_slope_is_told_its_own_pose(name: str, tilt) ->
     robot = robot_called(name)
     R = attitude(*tilt, 0.7)
     at = np.array([1.0, -2.0, 0.4])
-    q, reached = angles(robot, robot.stance)
+    q, reached = angles(robot, robot.nominal_feet)
     assert reached.all()
     feet_w = at + feet(robot, q) @ R.T
     pose = regulate(feet_w, np.array([at[0], at[1], 0.7]), robot.stand)

@@ -174,15 +174,15 @@ def test_the_stretched_and_the_folded_leg_still_reach(offset, third, hip1, hip2,
 @pytest.mark.parametrize("name", [*robot_names(), "dog", "insect"])
 def test_the_nominal_stance_is_reached(name: str) -> None:
     robot = robot_called(name)
-    q, reached = angles(robot, robot.stance)
+    q, reached = angles(robot, robot.nominal_feet)
     assert reached.all()
-    np.testing.assert_allclose(feet(robot, q), robot.stance, rtol=0, atol=1e-12 * robot.height)
+    np.testing.assert_allclose(feet(robot, q), robot.nominal_feet, rtol=0, atol=1e-12 * robot.height)
 
 
 @pytest.mark.parametrize("name", [*robot_names(), "dog", "insect"])
 def test_feet_that_cannot_be_reached_are_told_leg_by_leg(name: str) -> None:
     robot = robot_called(name)
-    wanted = robot.stance.copy()
+    wanted = robot.nominal_feet.copy()
     wanted[1] += (0.0, 0.0, -10.0 * robot.leg_length)
     q, reached = angles(robot, wanted)
     assert reached.tolist() == [leg != 1 for leg in range(robot.n)]
@@ -208,18 +208,18 @@ def test_all_postures_of_a_robot_nobody_has_seen_bring_its_feet_home(name: str, 
 def test_all_four_postures_of_a_leg() -> None:
     """The dog's foot below its hip: knee behind or before, foot below or above the axis turned half round."""
     robot = robot_called("dog")
-    found = branches(robot, "RR", robot.stance[3])
+    found = branches(robot, "RR", robot.nominal_feet[3])
     assert set(found) == set(BRANCHES)
     assert len({tuple(q.round(6)) for q in found.values()}) == 4
     own = found[tuple(robot.branch[3])]
-    np.testing.assert_allclose(own, angles(robot, robot.stance)[0][3], atol=1e-14)
-    assert branches(robot, "RR", robot.stance[3] * 9.0) == {}
+    np.testing.assert_allclose(own, angles(robot, robot.nominal_feet)[0][3], atol=1e-14)
+    assert branches(robot, "RR", robot.nominal_feet[3] * 9.0) == {}
 
 
 # --- reach in words ------------------------------------------------------------------------------
 def test_a_foot_too_far_is_told_with_leg_distance_and_length() -> None:
     robot = robot_called("dog")
-    wanted = robot.stance.copy()
+    wanted = robot.nominal_feet.copy()
     wanted[1] += (0.0, 0.0, -0.252)
     far = reach(robot, wanted)[1]
     assert (far.leg, far.code) == ("FR", TOO_FAR)

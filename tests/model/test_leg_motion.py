@@ -312,7 +312,7 @@ def test_the_flag_and_the_pose_agree(name: str, seed: int) -> None:
 # --- wrong use ---------------------------------------------------------------------------------------
 def test_numbers_that_are_none_are_told_by_leg_and_joint() -> None:
     robot = robot_called("dog")
-    q, _ = angles(robot, robot.stance)
+    q, _ = angles(robot, robot.nominal_feet)
     q[2, 1] = np.nan
     with pytest.raises(WrongUse, match="leg RL: the angle of hip 2 is nan"):
         joint_rates(robot, q, np.zeros((4, 3)))

@@ -21,8 +21,8 @@ def test_packed_and_unpacked_it_is_the_same_robot(name: str) -> None:
 @NAMES
 def test_derived_lengths_follow_from_the_stance(name: str) -> None:
     robot = robot_called(name)
-    assert robot.n == len(robot.legs) == len(robot.stance)
-    assert robot.height == pytest.approx(robot.foot_radius.mean() - robot.stance[:, 2].mean())
+    assert robot.n == len(robot.legs) == len(robot.nominal_feet)
+    assert robot.height == pytest.approx(robot.foot_radius.mean() - robot.nominal_feet[:, 2].mean())
     assert robot.natural_frequency == pytest.approx(np.sqrt(GRAVITY / robot.height))
     assert robot.total_mass == pytest.approx(robot.base_mass + robot.mass.sum())
     assert robot.body_length > 0.0 and robot.height < 1.2 * robot.leg_length

@@ -91,7 +91,7 @@ def test_on_its_way_around_a_box_the_feet_keep_clear_of_it(goal) -> None:
         here = here + 0.02 * way / max(np.linalg.norm(way), 0.02)
         route = navigator.plan(route, at(*here))
         nearest = min(nearest, box.distance(Point(here)))
-    assert nearest >= np.abs(DOG.stance[:, 1]).max()
+    assert nearest >= np.abs(DOG.nominal_feet[:, 1]).max()
 
 
 def test_once_arrived_it_stays_arrived_until_it_is_pushed_off_the_goal() -> None:

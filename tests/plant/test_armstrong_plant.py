@@ -366,7 +366,7 @@ def test_two_boxes_side_by_side_push_once() -> None:
     robot = robot_called("thesis")
     tiles = tuple(Box(x, 0.0, 0.0, 1.0, 4.0, 0.1) for x in (-0.5, 0.5, 1.5, -1.5))
     for shift in (0.0, 0.003):
-        ahead = float(robot.stance[:, 0].max()) + shift
+        ahead = float(robot.nominal_feet[:, 0].max()) + shift
         scene = Scene("tiles", Flat(), tiles, start=(-ahead, 0.0, 0.0))
         plant = ArmstrongPlant(robot, scene)
         plant.reset(vary=False)

@@ -51,7 +51,7 @@ def held(robot: Robot, scene: Scene, seconds: float) -> tuple[mujoco.MjModel, mu
     """A robot set on its feet, its joints held by springs."""
     model = build_world([Placed(robot)], scene)
     data = mujoco.MjData(model)
-    rest = angles(robot, robot.stance)[0].ravel()
+    rest = angles(robot, robot.nominal_feet)[0].ravel()
     data.qpos[7:] = rest
     for _ in range(round(seconds / model.opt.timestep)):
         data.ctrl[:] = 60.0 * (rest - data.qpos[7:]) - 1.5 * data.qvel[6:]

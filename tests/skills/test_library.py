@@ -33,7 +33,7 @@ def grown(robot: Robot, k: float) -> Robot:
     """The same robot with all lengths `k` times as long."""
     lengths = {
         name: k * getattr(robot, name)
-        for name in ("base_com", "hip", "offset", "com", "foot_radius", "stance")
+        for name in ("base_com", "hip", "offset", "com", "foot_radius", "nominal_feet")
     }
     return replace(robot, **lengths, trunk=k * robot.trunk)
 

@@ -77,7 +77,7 @@ def test_the_road_is_named_by_the_hardest_part_of_it(robot, scan, leaf, group):
 
 
 def sensed_like(robot, load: float = 0.25):
-    q, _ = angles(robot, robot.stance)
+    q, _ = angles(robot, robot.nominal_feet)
     here = sensed()
     return replace(here, q=q, qd=0.0 * q, load=q[:, 0] * 0.0 + load * robot.total_mass * GRAVITY)
 

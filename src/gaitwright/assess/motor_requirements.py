@@ -180,7 +180,7 @@ def too_wide(robot: Robot, gait: Gait) -> str | None:
     sway = float(np.abs(periodic_reference(robot, gait)[:, 0]).max())
     if sway <= MOST_SWAY * robot.height:
         return None
-    wide = float(np.abs(robot.stance[:, 1]).max())
+    wide = float(np.abs(robot.nominal_feet[:, 1]).max())
     return (
         f"{gait.name} would sway {robot.name} by {sway:.2f} m: its feet stand {wide:.2f} m from its middle "
         f"line at a height of {robot.height:.2f} m, too wide to be carried by one side in turn"

@@ -193,11 +193,11 @@ def of_body(robot: Robot) -> Iterator[Finding]:
 
 def of_stance(robot: Robot) -> Finding:
     """How near the nominal stance is to joint limits, and how level its feet are."""
-    q, _ = angles(robot, robot.stance)
+    q, _ = angles(robot, robot.nominal_feet)
     room = np.minimum(q - robot.q_min, robot.q_max - q)
     leg, joint = (int(i) for i in np.unravel_index(np.argmin(room), room.shape))
     where = f"the {HINGES[joint]} of {robot.legs[leg]}"
-    depths = robot.foot_radius - robot.stance[:, 2]
+    depths = robot.foot_radius - robot.nominal_feet[:, 2]
     if np.ptp(depths) > UNEVEN * robot.height:
         sentence = (
             f"its feet are {np.ptp(depths):.3f} m from being level: front and rear legs differ in length"

@@ -71,7 +71,7 @@ def check_motors(robot: Robot, call: SkillCall, cycle: LegCycle | None = None) -
 
 def check_turn(robot: Robot, call: SkillCall) -> None:
     """`WrongUse` for a yaw rate beyond what the skill can do on this robot."""
-    reach = float((robot.stance[:, 0] ** 2 + robot.stance[:, 1] ** 2).max()) ** 0.5
+    reach = float((robot.nominal_feet[:, 0] ** 2 + robot.nominal_feet[:, 1] ** 2).max()) ** 0.5
     most = fastest(find_skill(call.skill, robot), robot) / reach
     if abs(call.turn) > most * (1 + 1e-9):
         raise WrongUse(

@@ -29,7 +29,7 @@ from gaitwright.control.numerical import (
 )
 from gaitwright.control.thesis_program import LinearSettings
 from gaitwright.errors import WrongUse
-from gaitwright.model.robot import Robot
+from gaitwright.model.robot import Robot, legs_of
 from gaitwright.numerics.compiled import kernel_nogil
 
 CHUNK = 512
@@ -70,7 +70,7 @@ def work_out(packed, moments, every, out):
     A chain that is formed or broken, a foot down or up, is a new load at once.
     """
     first = stance_begins(moments[0])
-    last = first + int(packed[0])
+    last = first + legs_of(packed)
     for i in range(moments.shape[0]):
         if i % every == 0 or (moments[i, first:last] != moments[i - 1, first:last]).any():
             out[i] = demand(packed, moment_of(moments[i]), AS_WANTED)

@@ -118,7 +118,7 @@ def derive_leg(m: mujoco.MjModel, legs: Legs, i: int) -> tuple[LegShape, LegBody
         tau_max=np.array([torque_limit(m, int(j)) for j in joints]),
         foot_radius=foot.radius,
         branch=branch,
-        stance=place,
+        nominal_feet=place,
     )
 
 
@@ -263,7 +263,7 @@ def box_corners(m: mujoco.MjModel, legs: Legs, geom: int) -> np.ndarray:
 
 def outside_limits(robot: Robot, shapes: list[LegShape]) -> tuple[str, ...]:
     """A sentence where the joint limits forbid the nominal stance."""
-    q, _ = angles(robot, robot.stance)
+    q, _ = angles(robot, robot.nominal_feet)
     slack = [shape.margin(q_leg) for shape, q_leg in zip(shapes, q, strict=True)]
     tight = [f"{name} by {-s:.2f} rad" for name, s in zip(robot.legs, slack, strict=True) if s < 0.0]
     return (f"the nominal stance is outside the joint limits of {', '.join(tight)}",) if tight else ()

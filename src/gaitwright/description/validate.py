@@ -13,7 +13,7 @@ ABSURD = 1e6
 """No number of a robot is as large as this, in SI units."""
 PER_JOINT = ("mass", "com", "inertia", "armature", "damping", "friction", "q_min", "q_max", "tau_max")
 """Fields of a `Robot` with a row per leg and joint."""
-PER_LEG = ("hip", "leg_frame", "offset", "sign", "foot_radius", "branch", "stance")
+PER_LEG = ("hip", "leg_frame", "offset", "sign", "foot_radius", "branch", "nominal_feet")
 """Fields with a row per leg."""
 NOT_NEGATIVE = ("armature", "damping", "friction")
 """Fields whose numbers are zero or more."""

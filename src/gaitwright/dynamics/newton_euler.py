@@ -25,9 +25,11 @@ from gaitwright.model.leg import (
     point_acceleration,
     solve_columns,
 )
+from gaitwright.model.robot import legs_of
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import add, cross, scale, sub, turn_x, turn_y, vec
 from gaitwright.numerics.matrices import apply, apply_t, rows, vec_at, write
+from gaitwright.numerics.packing import Layout
 
 NO_LOAD = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 """Force and moment on a foot in the air."""
@@ -125,28 +127,21 @@ def inverse_dynamics(model, w, wd, a, q, qd, qdd):
 
 
 class Dynamics(NamedTuple):
-    """What a motion asks for, and where the feet are; base axes, arrays for `legs` legs."""
+    """What a motion asks for, and where the feet are; base axes."""
 
-    wrench: np.ndarray
-    """`(6,)` force [N] and moment about the base origin [N·m] on the base, feet unloaded."""
-    tau: np.ndarray
-    """`(legs, 3)` joint torques [N·m], feet unloaded."""
-    feet: np.ndarray
-    """`(legs, 3)` base origin → foot centre [m]."""
-    columns: np.ndarray
-    """`(legs, 3, 3)` rows: velocity of the foot centre per joint rate (columns of its Jacobian) [m]."""
+    wrench: Float[np.ndarray, "6"]
+    """Force [N] and moment about the base origin [N·m] on the base, feet unloaded."""
+    tau: Float[np.ndarray, "legs 3"]
+    """Joint torques [N·m], feet unloaded."""
+    feet: Float[np.ndarray, "legs 3"]
+    """Base origin → foot centre [m]."""
+    columns: Float[np.ndarray, "legs 3 3"]
+    """Rows: velocity of the foot centre per joint rate (columns of its Jacobian) [m]."""
 
 
-@kernel
-def dynamics_in(numbers):
-    """The `Dynamics` packed in one array, as views."""
-    n = (numbers.size - 6) // 15
-    return Dynamics(
-        numbers[:6],
-        numbers[6 : 6 + 3 * n].reshape(n, 3),
-        numbers[6 + 3 * n : 6 + 6 * n].reshape(n, 3),
-        numbers[6 + 6 * n :].reshape(n, 3, 3),
-    )
+DYNAMICS = Layout.of(Dynamics)
+dynamics_in = DYNAMICS.views(Dynamics)
+"""The `Dynamics` in a row, as views; for kernels too."""
 
 
 def state_numbers(
@@ -167,7 +162,7 @@ def dynamics_of(packed, numbers):
 
     The same figures as `inverse_dynamics`; two arrays in and one out cost far less than its arguments do.
     """
-    n = int(packed[0])
+    n = legs_of(packed)
     w, wd, a = vec_at(numbers, 0), vec_at(numbers, 3), vec_at(numbers, 6)
     out = np.empty(6 + 15 * n)
     mass, com, inertia = base_at(packed)

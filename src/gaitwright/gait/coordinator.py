@@ -100,7 +100,7 @@ def feet_reference(
     for leg in range(n):
         if state.mode[leg] == SWING:
             s = min(state.progress[leg], 1.0)
-            hip_x, hip_y, arm_x, arm_y = hip_over_ground(rotation_d, position, model.stance[leg])
+            hip_x, hip_y, arm_x, arm_y = hip_over_ground(rotation_d, position, model.nominal_feet[leg])
             x, y = touchdown(
                 hip_x,
                 hip_y,
@@ -265,7 +265,7 @@ def pitched(matrix, angle):
 
 def shank_leans(robot: Robot) -> Float[np.ndarray, "legs 2"]:
     """How far each shank leans out over the ground per height in the nominal stance, base axes x, y."""
-    q, _ = angles(robot, robot.stance)
+    q, _ = angles(robot, robot.nominal_feet)
     bone = feet(robot, q) - knees(robot, q)
     return bone[:, :2] / bone[:, 2:]
 

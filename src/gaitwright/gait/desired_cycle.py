@@ -262,7 +262,7 @@ def foothold(
     middle = (cycle - np.asarray(gait.offsets) + 0.5 * gait.duty) * gait.period
     place, yaw = path(command, middle)
     c, s = np.cos(yaw), np.sin(yaw)
-    x, y = robot.stance[:, 0], robot.stance[:, 1]
+    x, y = robot.nominal_feet[:, 0], robot.nominal_feet[:, 1]
     ground = np.broadcast_to(robot.foot_radius, yaw.shape)
     return np.stack([place[..., 0] + c * x - s * y, place[..., 1] + s * x + c * y, ground], axis=-1)
 

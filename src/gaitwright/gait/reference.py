@@ -30,7 +30,7 @@ def periodic_reference(robot: Robot, gait: Gait) -> Float[np.ndarray, "bins 9"]:
     weight = robot.total_mass * GRAVITY
     peak = weight / (robot.n * gait.duty) * np.pi / 2
     force = np.where(progress < 1.0, peak * np.sin(np.pi * np.minimum(progress, 1.0)), 0.0)
-    arm = robot.stance[:, :2] - robot.stance[:, :2].mean(axis=0)
+    arm = robot.nominal_feet[:, :2] - robot.nominal_feet[:, :2].mean(axis=0)
     sway = -(force @ arm[:, 1]) / (robot.total_mass * robot.height)
     accelerations = (
         sway * calm(sway, gait, robot.n),
@@ -77,5 +77,5 @@ def pitch_inertia(robot: Robot) -> float:
     Leg links count as points half-way between hip and foot: a share of the trunk's own.
     """
     legs = robot.mass.sum(axis=1)
-    middle = 0.5 * (robot.hip + robot.stance)
+    middle = 0.5 * (robot.hip + robot.nominal_feet)
     return float(robot.base_inertia[1, 1] + (legs * (middle[:, 0] ** 2 + (0.5 * middle[:, 2]) ** 2)).sum())

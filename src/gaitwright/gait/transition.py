@@ -66,7 +66,7 @@ def closest_phase(state, clock, offsets, cycles, asked, model, rotation_wb, posi
     for i in range(PHASES):
         phase, cost = i / PHASES, 0.0
         for leg in range(offsets.size):
-            hip_x, hip_y, arm_x, arm_y = hip_over_ground(rotation_wb, position, model.stance[leg])
+            hip_x, hip_y, arm_x, arm_y = hip_over_ground(rotation_wb, position, model.nominal_feet[leg])
             c, s = rotation_wb[0, 0], rotation_wb[1, 0]
             vx = c * asked[0] - s * asked[1] - asked[2] * arm_y
             vy = s * asked[0] + c * asked[1] + asked[2] * arm_x

@@ -94,7 +94,7 @@ class Body:
         self.course, self.rng = course, rng
         self.x, self.y, _ = course.scene.start
         self.yaw, self.phase, self.forward = course.yaw, float(rng.uniform()), 0.0
-        self.q, _ = angles(course.robot, course.robot.stance)
+        self.q, _ = angles(course.robot, course.robot.nominal_feet)
 
     def go(self, call: SkillCall, route: Route) -> None:
         """One tick of motion, no farther than the next point of the path."""

@@ -11,6 +11,7 @@ rates alone do, J̇ q̇ among it), `solve_columns` (J x = b, and what is done wh
 import math
 from typing import NamedTuple
 
+from gaitwright.model.robot import LAYOUT
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import add, cross, dot, scale, sub, turn_x, turn_y, vec
 from gaitwright.numerics.matrices import rows, rows_at, vec_at
@@ -34,30 +35,27 @@ class Leg(NamedTuple):
 
 
 # --- reading -------------------------------------------------------------------------------------
+hip, frame, offset, sign, mass, com, inertia, armature, foot_radius = (
+    LAYOUT.start(name)
+    for name in ("hip", "leg_frame", "offset", "sign", "mass", "com", "inertia", "armature", "foot_radius")
+)
+base_mass, base_com, base_inertia = (LAYOUT.start(name) for name in ("base_mass", "base_com", "base_inertia"))
+
+
 @kernel
 def leg_at(packed, k):
-    """The leg `k` of a packed robot (`Robot.packed`); its order is that of `model.robot.unpacked`."""
-    n = int(packed[0])
-    hip = 14
-    frame = hip + 3 * n
-    offset = frame + 9 * n
-    sign = offset + 9 * n
-    mass = sign + n
-    com = mass + 3 * n
-    inertia = com + 9 * n
-    armature = inertia + 27 * n
-    foot_radius = armature + (3 + 2 + 3) * n
-    tensors = inertia + 27 * k
+    """The leg `k` of a packed robot (`Robot.packed`)."""
+    tensors = inertia(packed) + 27 * k
     return Leg(
-        rows_at(packed, frame + 9 * k),
-        vec_at(packed, hip + 3 * k),
-        rows_at(packed, offset + 9 * k),
-        packed[sign + k],
-        vec_at(packed, mass + 3 * k),
-        rows_at(packed, com + 9 * k),
+        rows_at(packed, frame(packed) + 9 * k),
+        vec_at(packed, hip(packed) + 3 * k),
+        rows_at(packed, offset(packed) + 9 * k),
+        packed[sign(packed) + k],
+        vec_at(packed, mass(packed) + 3 * k),
+        rows_at(packed, com(packed) + 9 * k),
         (rows_at(packed, tensors), rows_at(packed, tensors + 9), rows_at(packed, tensors + 18)),
-        vec_at(packed, armature + 3 * k),
-        packed[foot_radius + k],
+        vec_at(packed, armature(packed) + 3 * k),
+        packed[foot_radius(packed) + k],
     )
 
 
@@ -81,7 +79,8 @@ def leg_of(model, k):
 @kernel
 def base_at(packed):
     """Mass, centre of mass and inertia of the base of a packed robot."""
-    return packed[1], vec_at(packed, 2), rows_at(packed, 5)
+    at = base_mass(packed)
+    return packed[at], vec_at(packed, base_com(packed)), rows_at(packed, base_inertia(packed))
 
 
 # --- turning -------------------------------------------------------------------------------------

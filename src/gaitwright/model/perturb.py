@@ -88,7 +88,7 @@ def restood(robot: Robot) -> Robot:
             raise WrongUse(f"leg {robot.legs[i]} of {robot.name} cannot stand with links so changed")
         if tuple(robot.branch[i]) not in choices:
             branch[i] = best_branch(shape, choices)
-    return replace(robot, stance=feet, branch=branch)
+    return replace(robot, nominal_feet=feet, branch=branch)
 
 
 def leg_shape(robot: Robot, i: int) -> LegShape:

@@ -15,27 +15,35 @@ from jaxtyping import Float, Int
 
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import GRAVITY
+from gaitwright.numerics.packing import Layout
 
 
 class RobotArrays(NamedTuple):
     """The numbers that kernels read, for `legs` legs; the fields are those of `Robot`."""
 
-    base_mass: np.ndarray
-    base_com: np.ndarray
-    base_inertia: np.ndarray
-    hip: np.ndarray
-    leg_frame: np.ndarray
-    offset: np.ndarray
-    sign: np.ndarray
-    mass: np.ndarray
-    com: np.ndarray
-    inertia: np.ndarray
-    armature: np.ndarray
-    branch: np.ndarray
-    tau_max: np.ndarray
-    foot_radius: np.ndarray
-    stance: np.ndarray
-    measures: np.ndarray
+    base_mass: Float[np.ndarray, "1"]
+    base_com: Float[np.ndarray, "3"]
+    base_inertia: Float[np.ndarray, "3 3"]
+    hip: Float[np.ndarray, "legs 3"]
+    leg_frame: Float[np.ndarray, "legs 3 3"]
+    offset: Float[np.ndarray, "legs 3 3"]
+    sign: Float[np.ndarray, "legs"]
+    mass: Float[np.ndarray, "legs 3"]
+    com: Float[np.ndarray, "legs 3 3"]
+    inertia: Float[np.ndarray, "legs 3 3 3"]
+    armature: Float[np.ndarray, "legs 3"]
+    branch: Float[np.ndarray, "legs 2"]
+    tau_max: Float[np.ndarray, "legs 3"]
+    foot_radius: Float[np.ndarray, "legs"]
+    nominal_feet: Float[np.ndarray, "legs 3"]
+    measures: Float[np.ndarray, "3"]
+
+
+LAYOUT = Layout.of(RobotArrays)
+unpacked = LAYOUT.views(RobotArrays)
+"""The `RobotArrays` in a `Robot.packed`, as views; for kernels too."""
+legs_of = LAYOUT.legs()
+tau_max_of, measures_of = LAYOUT.field("tau_max"), LAYOUT.field("measures")
 
 
 @dataclass(frozen=True)
@@ -85,7 +93,7 @@ class Robot:
     """Radius of the spherical feet [m]."""
     branch: Int[np.ndarray, "legs 2"]
     """Branch of the inverse kinematics: side of the foot (sg) and bend of the knee (kn), each ±1."""
-    stance: Float[np.ndarray, "legs 3"]
+    nominal_feet: Float[np.ndarray, "legs 3"]
     """Centres of the feet in the nominal stance, base frame [m]."""
     trunk: Float[np.ndarray, "2 3"]
     """Collision box of the floating body: centre and half sizes, base frame [m]."""
@@ -103,12 +111,12 @@ class Robot:
     @cached_property
     def height(self) -> float:
         """Nominal height of the base origin above flat ground [m]."""
-        return float(np.mean(self.foot_radius - self.stance[:, 2]))
+        return float(np.mean(self.foot_radius - self.nominal_feet[:, 2]))
 
     @cached_property
     def stand(self) -> float:
         """Height of the base origin above the centres of the feet in the nominal stance [m]."""
-        return -float(self.stance[:, 2].mean())
+        return -float(self.nominal_feet[:, 2].mean())
 
     @cached_property
     def body_length(self) -> float:
@@ -142,8 +150,8 @@ class Robot:
 
     @cached_property
     def packed(self) -> Float[np.ndarray, "numbers"]:
-        """All of `arrays` in one, the number of legs first: one argument costs a kernel call far less."""
-        return np.concatenate([[float(self.n)], *(field.ravel() for field in self.arrays)])
+        """All of `arrays` in one row."""
+        return LAYOUT.pack(self.arrays)
 
 
 def lists_of(robot: Robot) -> dict[str, Any]:
@@ -160,44 +168,6 @@ def robot_of(values: dict[str, Any]) -> Robot:
 
 @kernel
 def scales(packed):
-    """Torque limits `(legs, 3)`, weight [N] and nominal height [m] of a `Robot.packed`.
-
-    Read from its end: `unpacked` takes longer than a controller likes to wait.
-    """
-    n = int(packed[0])
-    end = packed.size - 3
-    return packed[end - 7 * n : end - 4 * n].reshape(n, 3), packed[end], packed[end + 1]
-
-
-@kernel
-def unpacked(packed):
-    """The `RobotArrays` in a `Robot.packed`, as views."""
-    n = int(packed[0])
-    a = 1 + 1 + 3 + 9
-    b = a + 3 * n
-    c = b + 9 * n
-    d = c + 9 * n
-    e = d + n
-    f = e + 3 * n
-    g = f + 9 * n
-    h = g + 27 * n
-    i = h + 3 * n
-    j = i + 2 * n
-    return RobotArrays(
-        packed[1:2],
-        packed[2:5],
-        packed[5:14].reshape(3, 3),
-        packed[a:b].reshape(n, 3),
-        packed[b:c].reshape(n, 3, 3),
-        packed[c:d].reshape(n, 3, 3),
-        packed[d:e],
-        packed[e:f].reshape(n, 3),
-        packed[f:g].reshape(n, 3, 3),
-        packed[g:h].reshape(n, 3, 3, 3),
-        packed[h:i].reshape(n, 3),
-        packed[i:j].reshape(n, 2),
-        packed[j : j + 3 * n].reshape(n, 3),
-        packed[j + 3 * n : j + 4 * n],
-        packed[j + 4 * n : j + 7 * n].reshape(n, 3),
-        packed[j + 7 * n :],
-    )
+    """Torque limits `(legs, 3)`, weight [N] and nominal height [m] of a `Robot.packed`."""
+    measures = measures_of(packed)
+    return tau_max_of(packed), measures[0], measures[1]

@@ -49,7 +49,7 @@ class PlanView:
 
 def half_width(robot: Robot) -> float:
     """Room the robot needs to either side of its path [m]: its feet and a clearance."""
-    return float(abs(robot.stance[:, 1]).max()) + CLEARANCE * robot.body_length
+    return float(abs(robot.nominal_feet[:, 1]).max()) + CLEARANCE * robot.body_length
 
 
 @lru_cache(maxsize=4)

@@ -106,6 +106,10 @@ class Layout:
         a, b = self.named(name).start
         return compiled_source(f"return {a} + {b} * n", self)
 
+    def legs(self) -> Callable[[Row], int]:
+        """A function row → the number of legs; kernels can call it."""
+        return compiled_source("return n", self)
+
     def named(self, name: str) -> Column:
         """The column of a field."""
         return next(column for column in self.columns if column.name == name)

@@ -35,7 +35,7 @@ class Scanner:
     @classmethod
     def of(cls, robot: Robot) -> "Scanner":
         """The eyes of a robot."""
-        return cls(robot.height, float(abs(robot.stance[:, 1]).max()))
+        return cls(robot.height, float(abs(robot.nominal_feet[:, 1]).max()))
 
     def look(self, ground: GroundMap, place: Sequence[float] | np.ndarray, yaw: float) -> Scan | None:
         """The ground ahead of a place x, y [m] in direction `yaw` [rad]; `None` where it is not known."""

@@ -37,7 +37,7 @@ def start_of(
     spread = random.uniform(-1.0, 1.0, size=4 + 3 * robot.n) if vary else np.zeros(4 + 3 * robot.n)
     x, y, yaw = place or scene.start
     R = upright_rotation(tuple(np.asarray(scene.normal(x, y)).ravel()), yaw + 0.1 * spread[0])
-    q, _ = angles(robot, robot.stance)
+    q, _ = angles(robot, robot.nominal_feet)
     q = np.clip(q + 0.05 * spread[4:].reshape(-1, 3), robot.q_min, robot.q_max)
     velocity = 0.05 * np.sqrt(GRAVITY * robot.height) * spread[1:4] * (1.0, 1.0, 0.0)
     return Start(np.array([x, y, standing_height(robot, scene, R, q, (x, y))]), R, velocity, q)

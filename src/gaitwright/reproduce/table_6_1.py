@@ -47,7 +47,7 @@ def reproduce(say: Say) -> Reproduction:
 
 def angles_at(robot: Robot, x: float, behind: float) -> Float[np.ndarray, "4 3"]:
     """(ψ, θ_h, θ_k) of the legs with the body at x, the feet standing as at the first row."""
-    feet_w = from_thesis(np.array([X_6_1[0], 0.0, 0.0])) + robot.stance
+    feet_w = from_thesis(np.array([X_6_1[0], 0.0, 0.0])) + robot.nominal_feet
     feet_w[:, 0] -= behind
     feet_w[:, 2] = 0.0
     q, reached = angles(robot, feet_w - from_thesis(np.array([x, 0.0, Z_6_1])))
@@ -57,7 +57,7 @@ def angles_at(robot: Robot, x: float, behind: float) -> Float[np.ndarray, "4 3"]
 
 def footholds_behind(robot: Robot) -> float:
     """How far [m] behind their hips the feet are in the first row, by ψ of leg 2 there."""
-    reach = abs(robot.stance[LEG, 1] - robot.hip[LEG, 1])
+    reach = abs(robot.nominal_feet[LEG, 1] - robot.hip[LEG, 1])
     return float(reach * np.tan(TABLE_6_1[ROW, LEG, 0] - np.pi / 2))
 
 

@@ -55,7 +55,7 @@ class FootholdGuard:
         way = yaw + math.atan2(call.velocity[1], call.velocity[0])
         c, s = math.cos(yaw), math.sin(yaw)
         level = float(sensed.position_w[2]) - height
-        for foot in self.robot.stance[:, :2] @ np.array([[c, s], [-s, c]]):
+        for foot in self.robot.nominal_feet[:, :2] @ np.array([[c, s], [-s, c]]):
             told = track_trouble(grid, place + foot, level, way, far, height)
             if told:
                 return told

@@ -107,7 +107,7 @@ def climb(
 def past_the_boxes(robot: Robot, scene: Scene) -> float:
     """How far the body goes until even the hindmost foot is past the last box [m]."""
     end = max((box.x + box.radius if box.yaw else box.x + box.lx / 2 for box in scene.boxes), default=0.0)
-    return max(end - scene.start[0], 0.0) - float(robot.stance[:, 0].min()) + STRIDE * robot.height
+    return max(end - scene.start[0], 0.0) - float(robot.nominal_feet[:, 0].min()) + STRIDE * robot.height
 
 
 # --- footholds -------------------------------------------------------------------------------------
@@ -161,7 +161,7 @@ def order_of(legs: int) -> tuple[int, ...]:
 def plan(robot: Robot, scene: Scene, cycles: int, stride: float, tilts: bool) -> Iterator[ClimbStep]:
     """The steps of a climb: every foot `cycles` strides ahead."""
     x, y, _ = scene.start
-    nominal = robot.stance[:, :2] + (x, y)
+    nominal = robot.nominal_feet[:, :2] + (x, y)
     feet = np.array([foothold(robot, scene, leg, *nominal[leg]) for leg in range(robot.n)])
     body = regulated(feet, np.array([x, y]), robot.stand, tilts)
     for cycle, leg in product(range(1, cycles + 1), order_of(robot.n)):

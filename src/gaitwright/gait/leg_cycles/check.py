@@ -97,7 +97,7 @@ def swing_of(cycle: LegCycle, robot: Robot, gait: Gait, speed: float) -> Swing:
     for order in range(3):
         motion[order, ..., 0] = speed * gait.period * seen[..., order] / duration**order
         motion[order, ..., 2] = robot.height * seen[..., 3 + order] / duration**order
-    feet = motion[0] + robot.stance
+    feet = motion[0] + robot.nominal_feet
     q, qd, qdd, codes = joints_of(robot.packed, feet, motion[1], motion[2])
     beyond = np.maximum(robot.q_min - q, q - robot.q_max).max(axis=2)
     reached = (codes == REACHED) & (beyond <= LIMIT_TOLERANCE)

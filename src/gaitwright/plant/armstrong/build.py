@@ -164,7 +164,7 @@ def stance_pose(
     robot: Robot,
 ) -> tuple[Float[np.ndarray, "3"], Float[np.ndarray, "3 3"], Float[np.ndarray, "legs 3"]]:
     """Level, over the origin, the feet where they stand."""
-    return np.array([0.0, 0.0, robot.height]), np.eye(3), angles(robot, robot.stance)[0]
+    return np.array([0.0, 0.0, robot.height]), np.eye(3), angles(robot, robot.nominal_feet)[0]
 
 
 def any_poses(robot: Robot, system: System) -> list[Float[np.ndarray, "numbers"]]:
