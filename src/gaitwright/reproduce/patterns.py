@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 import numpy as np
 from jaxtyping import Bool, Float
-from shapely import MultiPoint, Point
 
 from gaitwright.gait.desired_cycle import DesiredCycle
+from gaitwright.numerics.polygon import hull, margins
 
 PSI, THETA, KNEE = 0, 1, 2
 MIRRORED = np.array([-1.0, 1.0, 1.0])
@@ -75,10 +75,5 @@ def time_mirror_difference(curves: Float[np.ndarray, "steps 4 3"], cycle: Desire
 
 def static_margins(cycle: DesiredCycle) -> Float[np.ndarray, "steps"]:
     """Distance [m] of the body's centre from the edge of the polygon of its feet; negative outside."""
-    out = np.empty(cycle.steps)
-    for i in range(cycle.steps):
-        polygon = MultiPoint(cycle.feet_w[i, cycle.stance[i], :2]).convex_hull
-        centre = Point(cycle.position_w[i, :2])
-        edge = polygon.boundary if polygon.geom_type == "Polygon" else polygon
-        out[i] = edge.distance(centre) * (1.0 if polygon.contains(centre) else -1.0)
-    return out
+    feet, centres = cycle.feet_w[..., :2], cycle.position_w[:, None, :2]
+    return np.array([margins(hull(feet[i, cycle.stance[i]]), centres[i])[0] for i in range(cycle.steps)])

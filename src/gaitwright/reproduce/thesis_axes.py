@@ -9,6 +9,8 @@ sideways, about the axis that points up; the other two angles are the same.
 import numpy as np
 from jaxtyping import Float
 
+from gaitwright.numerics.geometry import wrapped
+
 SIDEWAYS = np.array([1.5, 0.5, 1.5, 0.5]) * np.pi
 """ψ of a leg that points straight sideways: legs 1 … 4 of the thesis, our FL FR RL RR."""
 SENSE = np.array([-1.0, 1.0, 1.0])
@@ -27,7 +29,7 @@ def angles_to_thesis(q: Float[np.ndarray, "*batch 4 3"]) -> Float[np.ndarray, "*
 def angles_from_thesis(angles: Float[np.ndarray, "*batch 4 3"]) -> Float[np.ndarray, "*batch 4 3"]:
     """Our joint angles [rad] for (ψ, θ_h, θ_k) of the four legs."""
     out = np.array(angles, dtype=float)
-    out[..., 0] = np.arctan2(np.sin(out[..., 0] - SIDEWAYS), np.cos(out[..., 0] - SIDEWAYS))
+    out[..., 0] = wrapped(out[..., 0] - SIDEWAYS)
     return out * SENSE
 
 
