@@ -136,7 +136,7 @@ class Scan:
     """Widest hole ahead with ground on its other side [m]."""
     obstacle: float = math.inf
     """Distance to the next thing too high to step on [m]."""
-    street: float = 0.0
+    course: float = 0.0
     """World direction of the way ahead [rad]."""
     familiar: bool = False
     """Whether this trip has come along here before."""
@@ -202,7 +202,7 @@ class MotionTarget(Packed):
     """Phase φ of the gait, in [0, 1)."""
     stance: Bool[np.ndarray, "legs"]
     """Legs that carry load now."""
-    share: Float[np.ndarray, "legs"]
+    load_scale: Float[np.ndarray, "legs"]
     """How much of the normal-force bound each leg may use, 0 … 1: it ramps at both ends of stance."""
     normal_w: Float[np.ndarray, "3"]
     """Unit normal of the ground under the feet."""
@@ -222,6 +222,11 @@ class MotionTarget(Packed):
     """Joint angles that realise them [rad]."""
     command: Float[np.ndarray, "3"]
     """Velocity asked for now, after slewing: forward, left [m/s], yaw rate [rad/s]."""
+
+    @property
+    def share(self) -> Float[np.ndarray, "legs"]:
+        """`load_scale` by its name in the first versions."""
+        return self.load_scale
 
 
 @dataclass(frozen=True, slots=True)
@@ -260,10 +265,15 @@ class MotorCommand:
     """Stiffness [N·m/rad]."""
     kd: Float[np.ndarray, "legs 3"] | None = None
     """Damping [N·m·s/rad]."""
-    prices: Float[np.ndarray, "legs limits"] | None = None
+    multipliers: Float[np.ndarray, "legs limits"] | None = None
     """What each limit of each foot costs (`control.forces`, in words by `control.certificate`)."""
     posture: Posture | None = None
     """For a plant without mechanics; drivers that solve a robot's dynamics leave it out."""
+
+    @property
+    def prices(self) -> Float[np.ndarray, "legs limits"] | None:
+        """`multipliers` by their name in the first versions."""
+        return self.multipliers
 
     def torques(
         self, q: Float[np.ndarray, "legs 3"], qd: Float[np.ndarray, "legs 3"]

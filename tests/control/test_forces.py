@@ -21,7 +21,7 @@ class Answer:
     tau: np.ndarray
     forces_w: np.ndarray
     residual: float
-    prices: np.ndarray
+    multipliers: np.ndarray
     code: int
     culprit: int
 
@@ -59,7 +59,7 @@ def test_every_limit_is_kept(seed: int) -> None:
     t1, t2, n = in_contact(task, answer.forces_w).T
     assert answer.code == SOLVED
     assert (answer.forces_w[~task.stance] == 0.0).all()
-    assert (n >= -hair).all() and (n <= MOST_NORMAL * task.share * WEIGHT + hair).all()
+    assert (n >= -hair).all() and (n <= MOST_NORMAL * task.load_scale * WEIGHT + hair).all()
     assert (np.maximum(abs(t1), abs(t2)) <= FRICTION * n + hair).all()
     assert (
         abs(torques_of(task, answer.forces_w))[task.stance] <= task.tau_max[task.stance] * (1 + 2e-6)
@@ -83,7 +83,7 @@ def test_a_load_that_four_feet_can_carry_is_carried(seed: int) -> None:
     forces = forces @ contact_frame(task.normal_w)
     wrench = np.concatenate([forces.sum(axis=0), np.cross(task.load.arm, forces).sum(axis=0)])
     load, strong = task.load._replace(wrench=wrench), np.full((4, 3), 1e3)
-    able = replace(task, load=load, share=np.ones(4), previous_w=forces, tau_max=strong)
+    able = replace(task, load=load, load_scale=np.ones(4), previous_w=forces, tau_max=strong)
     assert solve(able).residual < 1e-3
 
 
@@ -118,7 +118,7 @@ def test_some_of_these_tasks_press_against_every_limit() -> None:
         close = 1e-5 * WEIGHT
         hit += [
             bool((n < close).any()),
-            bool((n > MOST_NORMAL * task.share[task.down] * WEIGHT - close).any()),
+            bool((n > MOST_NORMAL * task.load_scale[task.down] * WEIGHT - close).any()),
             bool((np.maximum(abs(t1), abs(t2)) > FRICTION * n - close)[n > close].any()),
             bool((abs(torques_of(task, forces)) > task.tau_max - 1e-4)[task.down].any()),
         ]

@@ -130,7 +130,9 @@ def test_the_unmet_balance_and_the_limits_belong_to_the_forces(seed: int, asked:
     push, turn = task.load.push[task.down], task.load.turn[task.down]
     tau = task.load.free[task.down] - np.einsum("lji,li->lj", push, f) - np.einsum("lji,li->lj", turn, m)
     assert (abs(tau) <= task.tau_max[task.down] * (1 + 1e-8)).all()
-    assert (x[:, 2] >= -1e-8).all() and (x[:, 2] <= asked.most_normal * task.share[task.down] + 1e-8).all()
+    assert (x[:, 2] >= -1e-8).all() and (
+        x[:, 2] <= asked.most_normal * task.load_scale[task.down] + 1e-8
+    ).all()
     assert (abs(x[:, :2]) <= asked.friction * x[:, 2:3] + 1e-8).all()
     levers = np.array([asked.roll_lever, asked.pitch_lever, asked.twist_lever])
     assert (abs(x[:, 3:]) <= (levers * x[:, 2:3] / h + 1e-8)[:, : x.shape[1] - 3]).all()
@@ -142,7 +144,7 @@ def test_with_no_foot_down_there_is_nothing_to_share() -> None:
     assert (
         shared.code == SOLVED
         and shared.x.size == 0
-        and not shared.prices.any()
+        and not shared.multipliers.any()
         and (shared.basis == -1).all()
     )
 
@@ -153,25 +155,25 @@ def test_no_limit_without_contact_has_a_price() -> None:
     for seed in range(30):
         task = any_task(seed)
         shared = task.linear(CLOSED_LOOP)
-        assert shared.code == SOLVED and not shared.prices[~task.stance].any()
+        assert shared.code == SOLVED and not shared.multipliers[~task.stance].any()
         x = shared.x.reshape(-1, 3)
-        priced = shared.prices[task.down] != 0.0
+        priced = shared.multipliers[task.down] != 0.0
         slip = np.stack([s * x[:, i] - 0.5 * x[:, 2] for i in (0, 1) for s in (1, -1)], axis=1)
         assert (abs(slip[priced[:, :4]]) < 1e-8).all()
         assert (abs(x[priced[:, 4], 2]) < 1e-8).all()
-        assert (abs(x[:, 2] - 1.5 * task.share[task.down])[priced[:, 5]] < 1e-8).all()
+        assert (abs(x[:, 2] - 1.5 * task.load_scale[task.down])[priced[:, 5]] < 1e-8).all()
         with_price += priced.sum(axis=0)
     assert (with_price[:6] > 0).all(), "no kind of limit went untested"
 
 
 def roomier(task: Task, leg: int, limit: int, d: float) -> Task:
     """The task with the bound of a normal force (5) or a torque limit (6, 7, 8) moved out by d."""
-    share, most = task.share.copy(), task.tau_max.copy()
+    share, most = task.load_scale.copy(), task.tau_max.copy()
     if limit == 5:
         share[leg] += d / CLOSED_LOOP.most_normal
     else:
         most[leg, limit - 6] *= 1.0 + d
-    return replace(task, share=share, tau_max=most)
+    return replace(task, load_scale=share, tau_max=most)
 
 
 def test_a_price_says_what_a_little_more_room_saves() -> None:
@@ -181,7 +183,7 @@ def test_a_price_says_what_a_little_more_room_saves() -> None:
         shared = task.linear(CLOSED_LOOP)
         for leg in task.down:
             for limit in (5, 6, 7, 8):
-                price = abs(shared.prices[leg, limit])
+                price = abs(shared.multipliers[leg, limit])
                 if price > 1e-6:
                     more = roomier(task, leg, limit, d).linear(CLOSED_LOOP)
                     assert (shared.objective - more.objective) / d == pytest.approx(price, rel=1e-4, abs=1e-4)
@@ -198,7 +200,7 @@ def test_the_price_of_a_torque_has_the_sign_of_its_limit() -> None:
             continue
         forces = task.weight * shared.x.reshape(-1, 3) @ contact_frame(task.normal_w)
         tau = task.load.free[task.down] - np.einsum("lji,li->lj", task.load.push[task.down], forces)
-        priced = shared.prices[task.down, 6:]
+        priced = shared.multipliers[task.down, 6:]
         hit = abs(priced) > 1e-6
         np.testing.assert_allclose(tau[hit], np.sign(priced[hit]) * 20.0, rtol=1e-8)
         seen |= set(np.sign(priced[hit]))
@@ -288,6 +290,6 @@ def test_every_culprit_has_a_sentence(components: int) -> None:
 def test_six_components_tell_what_tipping_costs() -> None:
     """Small feet under a load far off their middle: the prices of their edges are not nothing."""
     tiny = SIX._replace(unmet=10.0, roll_lever=1e-3, pitch_lever=1e-3, twist_lever=1e-3)
-    prices = [any_task(seed, feet=2).linear(tiny).prices for seed in range(20)]
+    prices = [any_task(seed, feet=2).linear(tiny).multipliers for seed in range(20)]
     assert prices[0].shape == (4, 15)
     assert max(float(np.abs(p[:, 9:]).max()) for p in prices) > 0.0

@@ -67,7 +67,7 @@ def hold(robot: Robot, sensed: Sensed, stance: np.ndarray | None = None) -> Moti
     return MotionTarget(
         phase=0.0,
         stance=down,
-        share=down.astype(float),
+        load_scale=down.astype(float),
         normal_w=UP,
         position_w=sensed.position_w,
         velocity_w=still,
@@ -240,9 +240,9 @@ def test_an_error_is_answered_in_proportion(rng: np.random.Generator) -> None:
     damper = w0 * np.array([HORIZONTAL[1], HORIZONTAL[1], VERTICAL[1]])
     np.testing.assert_allclose(linear, spring * position + damper * velocity + near.acceleration_w)
     turn = np.array(rotation_vector(near.rotation_wb @ R.T))
-    spin = near.angular_velocity_w - R @ s.angular_velocity_b
+    omega = near.angular_velocity_w - R @ s.angular_velocity_b
     np.testing.assert_allclose(
-        angular, ATTITUDE[0] * w0**2 * turn + ATTITUDE[1] * w0 * spin + near.angular_acceleration_w
+        angular, ATTITUDE[0] * w0**2 * turn + ATTITUDE[1] * w0 * omega + near.angular_acceleration_w
     )
 
 

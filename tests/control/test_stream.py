@@ -47,7 +47,7 @@ def trot() -> list[Lap]:
 def same(efforts: Efforts, ticks: list[Torques]) -> bool:
     return all(
         np.array_equal(getattr(efforts, name), [getattr(t, name) for t in ticks])
-        for name in ("tau", "forces_w", "prices", "residual")
+        for name in ("tau", "forces_w", "multipliers", "residual")
     )
 
 
@@ -87,10 +87,11 @@ def test_a_row_holds_all_of_a_moment(trot: list[Lap]) -> None:
     for mine, theirs in [
         (moment.position, s.position_w), (moment.orientation, s.orientation_wb),
         (moment.velocity, s.velocity_w),
-        (moment.spin_b, s.angular_velocity_b), (moment.q, s.q), (moment.qd, s.qd), (moment.stance, t.stance),
-        (moment.share, t.share), (moment.normal, t.normal_w), (moment.want_p, t.position_w),
-        (moment.want_v, t.velocity_w), (moment.want_a, t.acceleration_w), (moment.want_r, t.rotation_wb),
-        (moment.want_w, t.angular_velocity_w), (moment.want_wd, t.angular_acceleration_w),
+        (moment.omega_b, s.angular_velocity_b), (moment.q, s.q), (moment.qd, s.qd), (moment.stance, t.stance),
+        (moment.load_scale, t.load_scale), (moment.normal, t.normal_w), (moment.position_d, t.position_w),
+        (moment.velocity_d, t.velocity_w), (moment.acceleration_d, t.acceleration_w),
+        (moment.rotation_d, t.rotation_wb),
+        (moment.omega_d, t.angular_velocity_w), (moment.omega_rate_d, t.angular_acceleration_w),
         (moment.feet_p, t.feet_w), (moment.feet_v, t.feet_velocity_w), (moment.feet_a, t.feet_acceleration_w),
     ]:  # fmt: skip
         np.testing.assert_array_equal(mine, theirs)

@@ -171,9 +171,9 @@ def test_energy_changes_by_the_power_of_torques_and_of_what_acts_from_outside(se
     acceleration = accelerations(tree, *s.arguments)
     found = rate(lambda t: sum(energy(tree, *later(s, acceleration, t), s.gravity)))
     _, velocities = hinge_motions(tree, s.R, s.x, s.v, s.w)
-    spin = np.einsum("kij,kj->ki", s.R, s.w)
+    omega = np.einsum("kij,kj->ki", s.R, s.w)
     torque = np.einsum("kij,kj->ki", s.R, s.torque)[1:]
-    terms = [s.force * velocities, s.moment * spin, torque * (spin[1:] - spin[tree.parent[1:]])]
+    terms = [s.force * velocities, s.moment * omega, torque * (omega[1:] - omega[tree.parent[1:]])]
     assert found == pytest.approx(
         sum(term.sum() for term in terms), abs=1e-5 * sum(np.abs(term).sum() for term in terms)
     )

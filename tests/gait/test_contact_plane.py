@@ -118,11 +118,11 @@ def test_narrow_feet_pass_from_the_past_to_least_squares_without_a_leap(seed, be
 def test_the_fit_turns_with_the_world(seed: int, before, turn: float) -> None:
     points = feet(np.random.default_rng(seed), 4) * [1.0, 0.2, 1.0]
     c, s = np.cos(turn), np.sin(turn)
-    spin = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    omega = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     plane, trust = fit_plane(points, past(before))
-    turned, turned_trust = fit_plane(points @ spin.T, past([*(spin[:2, :2] @ before[:2]), before[2]]))
+    turned, turned_trust = fit_plane(points @ omega.T, past([*(omega[:2, :2] @ before[:2]), before[2]]))
     assert turned_trust == pytest.approx(trust, abs=1e-9)
-    np.testing.assert_allclose(turned[:2], spin[:2, :2] @ plane[:2], atol=1e-9)
+    np.testing.assert_allclose(turned[:2], omega[:2, :2] @ plane[:2], atol=1e-9)
 
 
 def test_walls_are_not_believed() -> None:

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gaitwright.gait.command import POSITION_LEASH, SLEW, TURN_SLEW, YAW_LEASH
+from gaitwright.gait.command import MAX_YAW_LEAD, POSITION_LEASH, SLEW, TURN_SLEW
 from gaitwright.gait.coordinator import Coordinator
 from gaitwright.gait.state import GaitMemory
 from gaitwright.model.kinematics import angles, feet
@@ -210,7 +210,7 @@ def test_left_and_right_are_alike(seed: int, skill: str) -> None:
         expected[name] = MIRROR * expected[name][:, OTHER_SIDE]
     expected["rotation_wb"] = MIRROR[:, None] * expected["rotation_wb"] * MIRROR
     expected["q"] = expected["q"][:, OTHER_SIDE] * [-1, 1, 1]
-    for name in ("stance", "share"):
+    for name in ("stance", "load_scale"):
         expected[name] = expected[name][:, OTHER_SIDE]
     expected["command"] = expected["command"] * [1, -1, -1]
     assert_same(numbers(behind), expected, atol=1e-7)
@@ -227,7 +227,7 @@ def test_a_target_fits_together(name: str, skill: str) -> None:
         np.testing.assert_allclose(R @ R.T, np.eye(3), atol=1e-12)
         assert np.linalg.norm(target.normal_w) == pytest.approx(1.0)
         assert R[:, 1] @ target.normal_w == pytest.approx(0.0, abs=1e-12), "no roll against the ground"
-        np.testing.assert_array_equal(target.share > 0.0, target.stance)
+        np.testing.assert_array_equal(target.load_scale > 0.0, target.stance)
         np.testing.assert_array_equal(target.feet_velocity_w[target.stance], 0.0)
         in_base = (target.feet_w - target.position_w) @ R
         again, reached = angles(robot, in_base)
@@ -248,7 +248,7 @@ def test_standing_wants_the_body_where_it_is_over_its_feet() -> None:
     for name in ("velocity_w", "acceleration_w", "angular_velocity_w", "angular_acceleration_w"):
         np.testing.assert_allclose(getattr(target, name), 0.0, atol=1e-12)
     np.testing.assert_allclose(target.q, still.q, atol=1e-9)
-    assert target.stance.all() and (target.share == 1.0).all()
+    assert target.stance.all() and (target.load_scale == 1.0).all()
 
 
 @given(st.tuples(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0)), st.floats(-1.0, 1.0))
@@ -270,6 +270,6 @@ def test_the_wanted_place_runs_ahead_only_as_far_as_its_leash(seed: int, turn: f
     told = story(np.random.default_rng(seed), 1)[0]
     yaw = heading(rotation(told.orientation_wb))
     for _, state in follow([told] * 600, call_of("walk", (2.0, 0.5), turn), 0.0):
-        away = np.hypot(*(state.state.anchor[:2] - told.position_w[:2]))
+        away = np.hypot(*(state.state.reference_pose[:2] - told.position_w[:2]))
         assert away <= POSITION_LEASH * DOG.height * (1 + 1e-9)
-        assert abs(wrap(state.state.anchor[2] - yaw)) <= YAW_LEASH + 1e-9
+        assert abs(wrap(state.state.reference_pose[2] - yaw)) <= MAX_YAW_LEAD + 1e-9

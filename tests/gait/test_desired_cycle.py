@@ -25,14 +25,14 @@ STEPS = 1024
 
 
 def cycle_of(
-    name: str, skill: str, pace: float, lateral: float = 0.0, spin: float = 0.0, sways: bool = False
+    name: str, skill: str, pace: float, lateral: float = 0.0, omega: float = 0.0, sways: bool = False
 ) -> DesiredCycle:
-    """A skill on a robot; `pace`, `lateral`: shares of the skill's speed, `spin`: of its w0."""
+    """A skill on a robot; `pace`, `lateral`: shares of the skill's speed, `omega`: of its w0."""
     robot = robot_called(name)
     chosen = find_skill(skill, robot)
     v = chosen.speed * np.sqrt(robot.height / 0.29)
     velocity = (float(pace * v), float(lateral * v))
-    turn = spin * robot.natural_frequency
+    turn = omega * robot.natural_frequency
     return desired_cycle(robot, gait_of(chosen, robot), velocity, turn, Manner(sways=sways), STEPS)
 
 
@@ -54,7 +54,7 @@ MOTIONS = {
     "skill": st.sampled_from(["walk", "trot"]),
     "pace": st.floats(-0.6, 0.8),
     "lateral": st.floats(-0.4, 0.4),
-    "spin": st.floats(-0.08, 0.08),
+    "omega": st.floats(-0.08, 0.08),
     "sways": st.booleans(),
 }
 
@@ -62,9 +62,9 @@ MOTIONS = {
 @settings(max_examples=25)
 @given(**MOTIONS)
 def test_velocities_and_accelerations_are_the_rates_of_what_they_belong_to(
-    name, skill, pace, lateral, spin, sways
+    name, skill, pace, lateral, omega, sways
 ):
-    c = cycle_of(name, skill, pace, lateral, spin, sways)
+    c = cycle_of(name, skill, pace, lateral, omega, sways)
     period, down = c.gait.period, inner(c.stance)
     w0 = c.robot.natural_frequency
     for x, v, a, unit in (
@@ -82,8 +82,8 @@ def test_velocities_and_accelerations_are_the_rates_of_what_they_belong_to(
 
 @settings(max_examples=10)
 @given(**MOTIONS)
-def test_the_attitude_turns_as_its_angular_velocity_says(name, skill, pace, lateral, spin, sways):
-    c = cycle_of(name, skill, pace, lateral, spin, sways)
+def test_the_attitude_turns_as_its_angular_velocity_says(name, skill, pace, lateral, omega, sways):
+    c = cycle_of(name, skill, pace, lateral, omega, sways)
     dt, w0 = c.gait.period / c.steps, c.robot.natural_frequency
     turned = np.array(
         [
@@ -98,8 +98,8 @@ def test_the_attitude_turns_as_its_angular_velocity_says(name, skill, pace, late
 
 @settings(max_examples=25)
 @given(**MOTIONS)
-def test_the_joints_put_the_feet_where_they_should_be(name, skill, pace, lateral, spin, sways):
-    c = cycle_of(name, skill, pace, lateral, spin, sways)
+def test_the_joints_put_the_feet_where_they_should_be(name, skill, pace, lateral, omega, sways):
+    c = cycle_of(name, skill, pace, lateral, omega, sways)
     for i in range(0, c.steps, 97):
         at = c.position_w[i] + feet(c.robot, c.q[i]) @ c.rotation_wb[i].T
         assert np.abs(at - c.feet_w[i]).max() < 1e-12 * (1.0 + c.robot.leg_length)
@@ -107,8 +107,10 @@ def test_the_joints_put_the_feet_where_they_should_be(name, skill, pace, lateral
 
 @settings(max_examples=15)
 @given(**MOTIONS)
-def test_feet_that_are_down_stay_and_the_others_are_above_the_ground(name, skill, pace, lateral, spin, sways):
-    c = cycle_of(name, skill, pace, lateral, spin, sways)
+def test_feet_that_are_down_stay_and_the_others_are_above_the_ground(
+    name, skill, pace, lateral, omega, sways
+):
+    c = cycle_of(name, skill, pace, lateral, omega, sways)
     height = c.feet_w[..., 2] - c.robot.foot_radius
     assert not c.feet_velocity_w[c.stance].any() and not c.feet_acceleration_w[c.stance].any()
     assert not height[c.stance].any()
@@ -120,9 +122,9 @@ def test_feet_that_are_down_stay_and_the_others_are_above_the_ground(name, skill
 
 @settings(max_examples=15)
 @given(**MOTIONS)
-def test_the_cycle_closes_one_stride_on(name, skill, pace, lateral, spin, sways):
+def test_the_cycle_closes_one_stride_on(name, skill, pace, lateral, omega, sways):
     """What comes after the last sample, by its velocity, is the first one moved on and turned."""
-    c = cycle_of(name, skill, pace, lateral, spin, sways)
+    c = cycle_of(name, skill, pace, lateral, omega, sways)
     yaw = c.command[2] * c.gait.period
     turn = np.array([[np.cos(yaw), -np.sin(yaw), 0], [np.sin(yaw), np.cos(yaw), 0], [0, 0, 1.0]])
     dt = c.gait.period / c.steps

@@ -13,7 +13,7 @@ from gaitwright.gait.footholds import (
     LOW,
     MOST_LIFT,
     SEARCHED,
-    Wish,
+    FootholdRequest,
     choose_foothold,
     is_fit,
     is_on_ground,
@@ -35,8 +35,8 @@ names = st.sampled_from(sorted(GROUNDS))
 places = st.tuples(st.floats(-1.0, 6.0), st.floats(-1.0, 1.0))
 
 
-def wish(name: str, x: float, y: float, before: tuple[float, float], lean=(0.0, 0.0)) -> Wish:
-    return Wish(x, y, *before, float(height_at(GROUNDS[name], *before)), lean, H)
+def wish(name: str, x: float, y: float, before: tuple[float, float], lean=(0.0, 0.0)) -> FootholdRequest:
+    return FootholdRequest(x, y, *before, float(height_at(GROUNDS[name], *before)), lean, H)
 
 
 @given(names, places, st.tuples(st.floats(-0.1, 0.1), st.floats(-0.1, 0.1)))
@@ -58,7 +58,7 @@ def test_what_is_fit_already_is_left(name: str, place) -> None:
     assert choose_foothold(GROUNDS[name], asked) == (True, *place)
 
 
-def moved(rng: np.random.Generator) -> tuple[str, Wish, tuple[float, float]]:
+def moved(rng: np.random.Generator) -> tuple[str, FootholdRequest, tuple[float, float]]:
     """A ground, a wish for a place of it where no foot can stand, and the foothold that it gets."""
     for _ in range(1000):
         name, place = str(rng.choice(sorted(GROUNDS))), (float(rng.uniform(-1, 6)), float(rng.uniform(-1, 1)))

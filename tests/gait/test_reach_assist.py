@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gaitwright.gait.reach_assist import FOLDED, MOST_ASIDE, MOST_DOWN, STRETCHED, helping_shift, stretched
+from gaitwright.gait.reach_assist import FOLDED, MOST_ASIDE, MOST_DOWN, STRETCHED, reach_assist, stretched
 from gaitwright.gait.state import standing
 from oracles import robot_called
 
@@ -18,7 +18,7 @@ def shift_for(off: np.ndarray, duty: float = 0.75) -> tuple[np.ndarray, np.ndarr
     """The shift for feet so far off their nominal stance, and the feet, seen from the base."""
     feet = DOG.nominal_feet + off
     state = standing(feet, np.zeros(3), 0.0, 0.0).state
-    return np.array(helping_shift(DOG.arrays, state, LEVEL, (0.0, 0.0, 0.0), feet, duty, H)), feet
+    return np.array(reach_assist(DOG.arrays, state, LEVEL, (0.0, 0.0, 0.0), feet, duty, H)), feet
 
 
 def lengths(feet: np.ndarray, shift: np.ndarray) -> np.ndarray:

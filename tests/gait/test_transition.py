@@ -7,7 +7,7 @@ import pytest
 
 from gaitwright.gait.coordinator import Coordinator
 from gaitwright.gait.desired_cycle import desired_cycle
-from gaitwright.gait.transition import takes_over
+from gaitwright.gait.transition import may_start
 from gaitwright.signals import Gait, SkillCall
 from gaitwright.skills.library import LIBRARY, gait_of, skill_names
 from oracles import robot_called
@@ -62,4 +62,4 @@ def test_a_robot_that_is_too_fast_keeps_its_gait_until_it_is_not() -> None:
 
 def test_standing_waits_for_a_robot_that_moves() -> None:
     stand = gait_of(LIBRARY["stop"], DOG)
-    assert takes_over(stand, 0.0, DOG.height) and not takes_over(stand, 0.5, DOG.height)
+    assert may_start(stand, 0.0, DOG.height) and not may_start(stand, 0.5, DOG.height)

@@ -51,7 +51,7 @@ def test_on_a_plane_there_is_its_slope_in_the_direction_looked_at_and_nothing_el
     assert scan.slope == pytest.approx(math.atan(along), abs=1e-9)
     assert scan.cross == pytest.approx(math.atan(aside), abs=1e-9)
     assert max(scan.roughness, scan.step_up, scan.step_down, scan.gap) < 1e-9
-    assert scan.obstacle == math.inf and scan.street == yaw
+    assert scan.obstacle == math.inf and scan.course == yaw
 
 
 @given(st.floats(0.05, 0.3), st.floats(1.2, 3.0))

@@ -30,9 +30,9 @@ class Felt(NamedTuple):
 
 def felt_limits(robot: Robot, command: MotorCommand) -> tuple[Felt, ...]:
     """The limits that the torques of a tick rest on, the dearest first."""
-    if command.prices is None:
+    if command.multipliers is None:
         return ()
-    prices = np.abs(command.prices)
+    prices = np.abs(command.multipliers)
     order = sorted(zip(*np.nonzero(prices > SENSIBLE * (prices.max() + 1e-300)), strict=True))
     felt = [
         Felt(robot.legs[leg], float(prices[leg, limit]), limit_words(robot, command, int(leg), int(limit)))

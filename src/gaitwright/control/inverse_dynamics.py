@@ -65,24 +65,24 @@ def clipped(a, most):
 
 
 @kernel
-def base_acceleration(w0, rotation_wb, spin_w, moment):
+def base_acceleration(w0, rotation_wb, omega_w, moment):
     """Wanted linear and angular acceleration of the base, world axes, by feedback (control.md).
 
     Without a foot down it is left to fall.
     """
     if not moment.stance.any():
         return (0.0, 0.0, -GRAVITY), (0.0, 0.0, 0.0)
-    dp = sub(vec(moment.want_p), vec(moment.position))
-    dv = sub(vec(moment.want_v), vec(moment.velocity))
-    h, v, want_a = HORIZONTAL, VERTICAL, moment.want_a
+    dp = sub(vec(moment.position_d), vec(moment.position))
+    dv = sub(vec(moment.velocity_d), vec(moment.velocity))
+    h, v, acceleration_d = HORIZONTAL, VERTICAL, moment.acceleration_d
     linear = (
-        h[1] * w0 * dv[0] + h[0] * w0 * w0 * dp[0] + want_a[0],
-        h[1] * w0 * dv[1] + h[0] * w0 * w0 * dp[1] + want_a[1],
-        v[1] * w0 * dv[2] + v[0] * w0 * w0 * dp[2] + want_a[2],
+        h[1] * w0 * dv[0] + h[0] * w0 * w0 * dp[0] + acceleration_d[0],
+        h[1] * w0 * dv[1] + h[0] * w0 * w0 * dp[1] + acceleration_d[1],
+        v[1] * w0 * dv[2] + v[0] * w0 * w0 * dp[2] + acceleration_d[2],
     )
-    error = scale(ATTITUDE[0] * w0 * w0, rotation_vector(between(rotation_wb, moment.want_r)))
-    damping = scale(ATTITUDE[1] * w0, sub(vec(moment.want_w), spin_w))
-    angular = add(add(error, damping), vec(moment.want_wd))
+    error = scale(ATTITUDE[0] * w0 * w0, rotation_vector(between(rotation_wb, moment.rotation_d)))
+    damping = scale(ATTITUDE[1] * w0, sub(vec(moment.omega_d), omega_w))
+    angular = add(add(error, damping), vec(moment.omega_rate_d))
     return clipped(linear, MOST_ACCELERATION), clipped(angular, MOST_SPIN * w0)
 
 
@@ -150,7 +150,7 @@ def demand(packed, moment, short):
     `short`: what is added to the wanted acceleration of the base, linear and angular, world axes.
     """
     n, w0 = moment.stance.size, packed[-1]
-    R, w = rotation(moment.orientation), vec(moment.spin_b)
+    R, w = rotation(moment.orientation), vec(moment.omega_b)
     up_b = times_t(R, (0.0, 0.0, GRAVITY))
     linear, angular = base_acceleration(w0, R, times(R, w), moment)
     linear, angular = add(linear, short[0]), add(angular, short[1])

@@ -20,7 +20,7 @@ class Shared(NamedTuple):
 
     x: np.ndarray
     """`(components · feet,)` the unknowns of the stance feet."""
-    prices: np.ndarray
+    multipliers: np.ndarray
     """`(legs, 9)` how much the objective falls per unit that a limit moves out: friction +t1, −t1, +t2, −t2,
     normal force at 0 and at its bound, and torques of three joints: + at the upper limit, − at the lower.
     Six components: `(legs, 15)`, then tipping ±t1, ±t2 and twisting ±n."""

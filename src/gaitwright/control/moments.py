@@ -20,16 +20,16 @@ class Moment(NamedTuple):
     position: Float[np.ndarray, "3"]
     orientation: Float[np.ndarray, "4"]
     velocity: Float[np.ndarray, "3"]
-    spin_b: Float[np.ndarray, "3"]
+    omega_b: Float[np.ndarray, "3"]
     normal: Float[np.ndarray, "3"]
-    want_p: Float[np.ndarray, "3"]
-    want_v: Float[np.ndarray, "3"]
-    want_a: Float[np.ndarray, "3"]
-    want_w: Float[np.ndarray, "3"]
-    want_wd: Float[np.ndarray, "3"]
-    want_r: Float[np.ndarray, "3 3"]
+    position_d: Float[np.ndarray, "3"]
+    velocity_d: Float[np.ndarray, "3"]
+    acceleration_d: Float[np.ndarray, "3"]
+    omega_d: Float[np.ndarray, "3"]
+    omega_rate_d: Float[np.ndarray, "3"]
+    rotation_d: Float[np.ndarray, "3 3"]
     stance: Bool[np.ndarray, "legs"]
-    share: Float[np.ndarray, "legs"]
+    load_scale: Float[np.ndarray, "legs"]
     q: Float[np.ndarray, "legs 3"]
     qd: Float[np.ndarray, "legs 3"]
     feet_p: Float[np.ndarray, "legs 3"]
@@ -51,7 +51,7 @@ def moment_between(seen, asked):
     return Moment(
         s.position_w, s.orientation_wb, s.velocity_w, s.angular_velocity_b, t.normal_w, t.position_w,
         t.velocity_w, t.acceleration_w, t.angular_velocity_w, t.angular_acceleration_w, t.rotation_wb,
-        t.stance, t.share, s.q, s.qd, t.feet_w, t.feet_velocity_w, t.feet_acceleration_w,
+        t.stance, t.load_scale, s.q, s.qd, t.feet_w, t.feet_velocity_w, t.feet_acceleration_w,
     )  # fmt: skip
 
 
@@ -65,6 +65,6 @@ def row(s: Sensed, t: MotionTarget) -> Float[np.ndarray, "numbers"]:
     parts = Moment(
         s.position_w, s.orientation_wb, s.velocity_w, s.angular_velocity_b, t.normal_w, t.position_w,
         t.velocity_w, t.acceleration_w, t.angular_velocity_w, t.angular_acceleration_w, t.rotation_wb,
-        t.stance, t.share, s.q, s.qd, t.feet_w, t.feet_velocity_w, t.feet_acceleration_w,
+        t.stance, t.load_scale, s.q, s.qd, t.feet_w, t.feet_velocity_w, t.feet_acceleration_w,
     )  # fmt: skip
     return LAYOUT.pack(parts)

@@ -12,8 +12,8 @@ from gaitwright.control.forces import LIMITS, contact_frame, distribute, to_worl
 from gaitwright.control.inverse_dynamics import AS_WANTED, demand
 from gaitwright.control.linear import distribute_linear
 from gaitwright.control.moments import moment_between
-from gaitwright.control.shortfall import shortfall
 from gaitwright.control.thesis_program import LinearSettings
+from gaitwright.control.unmet_acceleration import unmet_acceleration
 from gaitwright.errors import WrongUse, unknown
 from gaitwright.model.robot import Robot, scales
 from gaitwright.numerics.compiled import kernel
@@ -36,7 +36,7 @@ class TickResult(NamedTuple):
     """Code of the solver, and the culprit where it failed."""
     tau: Float[np.ndarray, "legs 3"]
     forces_w: Float[np.ndarray, "legs 3"]
-    prices: Float[np.ndarray, "legs limits"]
+    multipliers: Float[np.ndarray, "legs limits"]
     basis: Float[np.ndarray, "3*legs+1"]
     """Where the linear program may start at the next tick; -1: nowhere."""
 
@@ -79,10 +79,10 @@ def distributed(packed, load, moment, previous):
     tau_max, weight, height = scales(packed)
     stance, normal = moment.stance, moment.normal
     x, prices, code, culprit = distribute(
-        load, stance, moment.share, normal, previous, tau_max, weight, height
+        load, stance, moment.load_scale, normal, previous, tau_max, weight, height
     )
     out = blank_result(stance.size)
-    result_of(out).prices[:] = prices
+    result_of(out).multipliers[:] = prices
     conclude(out, packed, load, moment, x, code, culprit)
     return out
 
@@ -95,7 +95,7 @@ def distributed_linear(packed, load, moment, previous, settings, hints):
     shared = distribute_linear(
         load,
         stance,
-        moment.share,
+        moment.load_scale,
         normal,
         previous,
         tau_max,
@@ -107,7 +107,7 @@ def distributed_linear(packed, load, moment, previous, settings, hints):
     )
     out = blank_result(stance.size)
     result = result_of(out)
-    result.prices[:] = shared.prices
+    result.multipliers[:] = shared.multipliers
     result.basis[:] = shared.basis
     code, culprit = shared.code, shared.culprit
     conclude(out, packed, load, moment, shared.x, code, culprit)
@@ -134,7 +134,7 @@ def conclude(out, packed, load, moment, x, code, culprit):
     result.forces_w[:] = forces
     lacks = unmet(load, forces, stance, weight, height)
     if lacks > LACKING or not stance.any():
-        load = demand(packed, moment, shortfall(packed, moment, load, forces))
+        load = demand(packed, moment, unmet_acceleration(packed, moment, load, forces))
     result.tau[:] = torques(load, forces, tau_max)
     if code == NOT_FINITE:
         result.tau[:] = np.nan
@@ -182,7 +182,7 @@ class NumericalController:
             numbers[where["forces_w"]].reshape(n, 3),
             residual,
             "solved" if code == SOLVED else self.reason(int(code), int(culprit), target.stance),
-            prices=numbers[where["prices"]].reshape(n, LIMITS),
+            multipliers=numbers[where["multipliers"]].reshape(n, LIMITS),
         )
         return command, numbers
 

@@ -55,7 +55,7 @@ class Efforts:
 
     tau: Float[np.ndarray, "steps legs 3"]
     forces_w: Float[np.ndarray, "steps legs 3"]
-    prices: Float[np.ndarray, "steps legs limits"]
+    multipliers: Float[np.ndarray, "steps legs limits"]
     residual: Float[np.ndarray, "steps"]
     code: Int[np.ndarray, "steps"]
     """0 where the distribution was solved (`codes.SENTENCES`)."""
@@ -152,7 +152,7 @@ def finish(job: Job, chunks: Sequence[Chunk]) -> Efforts:
     return Efforts(
         out[:, where["tau"]].reshape(steps, n, 3),
         out[:, where["forces_w"]].reshape(steps, n, 3),
-        out[:, where["prices"]].reshape(steps, n, LIMITS),
+        out[:, where["multipliers"]].reshape(steps, n, LIMITS),
         out[:, 0],
         code,
         culprit,

@@ -36,7 +36,7 @@ class LegBody(NamedTuple):
     tau_max: np.ndarray
     foot_radius: float
     branch: tuple[int, int]
-    stance: np.ndarray
+    nominal_feet: np.ndarray
 
 
 def derive(m: mujoco.MjModel, name: str) -> tuple[Robot, tuple[str, ...]]:

@@ -109,9 +109,9 @@ def own_loads(tree, R, w, torque, force, moment, gravity, e, f):
     for r in range(tree.mass.size):
         m, c, w_r, R_r = tree.mass[r], row(tree.com, r), row(w, r), mat(R, r)
         weight = scale(m, apply_t(R_r, gravity))
-        spin = cross(w_r, apply(mat(tree.inertia, r), w_r))
+        omega = cross(w_r, apply(mat(tree.inertia, r), w_r))
         g = scale(-1.0, row(torque, r)) if r > 0 else (0.0, 0.0, 0.0)
-        put_row(e, r, sub(add(apply_t(R_r, row(moment, r)), cross(c, weight)), add(spin, g)))
+        put_row(e, r, sub(add(apply_t(R_r, row(moment, r)), cross(c, weight)), add(omega, g)))
         put_row(f, r, sub(add(apply_t(R_r, row(force, r)), weight), scale(m, centripetal(w_r, c))))
 
 

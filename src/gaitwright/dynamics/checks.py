@@ -121,8 +121,8 @@ def bias_forces(
     rates = np.concatenate([np.zeros(3), w, qd.ravel()])
     h = np.zeros(6 + 3 * robot.n)
     for b in bodies(robot, w, q, qd):
-        spin = b.Jw @ rates
-        gyration = np.cross(spin, b.inertia @ spin)
+        omega = b.Jw @ rates
+        gyration = np.cross(omega, b.inertia @ omega)
         h += b.mass * b.Jv.T @ (b.bias + up_b) + b.Jw.T @ (b.inertia @ b.turning_bias + gyration)
     return h
 

@@ -58,8 +58,8 @@ def momentum(tree, R, x, v, w):
         c, w_r = row(tree.com, r), row(w, r)
         push = scale(tree.mass[r], add(row(velocity, r), apply(mat(R, r), cross(w_r, c))))
         linear = add(linear, push)
-        spin = apply(mat(R, r), about_centre(tree, r, w_r))
-        angular = add(angular, add(spin, cross(add(row(position, r), apply(mat(R, r), c)), push)))
+        omega = apply(mat(R, r), about_centre(tree, r, w_r))
+        angular = add(angular, add(omega, cross(add(row(position, r), apply(mat(R, r), c)), push)))
     return linear, angular
 
 

@@ -1,4 +1,4 @@
-"""What the body should do: its command, its leash, its height and attitude (rows J1, J5)."""
+"""What the body should do: its command, its lead, its height and attitude (rows J1, J5)."""
 
 import math
 
@@ -10,7 +10,7 @@ from gaitwright.numerics.geometry import wrap
 
 POSITION_LEASH = 0.6
 """How far the wanted position may run ahead of the body, in body heights."""
-YAW_LEASH = 0.3
+MAX_YAW_LEAD = 0.3
 """How far the wanted yaw may run ahead [rad]."""
 SLEW = 0.15
 """Fastest change of the commanded velocity, as a share of gravity."""
@@ -32,12 +32,12 @@ def slew(command, velocity, turn, gravity, height, dt):
 
 
 @kernel
-def advance_anchor(anchor, command, position, yaw, height, dt):
+def advance_reference(anchor, command, position, yaw, height, dt):
     """Integrates the command into the wanted place and yaw (changed in place), kept on their leashes."""
     anchor[2] += command[2] * dt
     ahead = wrap(anchor[2] - yaw)
-    if abs(ahead) > YAW_LEASH:
-        ahead = math.copysign(YAW_LEASH, ahead)
+    if abs(ahead) > MAX_YAW_LEAD:
+        ahead = math.copysign(MAX_YAW_LEAD, ahead)
     anchor[2] = yaw + ahead
     c, s = math.cos(anchor[2]), math.sin(anchor[2])
     anchor[0] += (c * command[0] - s * command[1]) * dt

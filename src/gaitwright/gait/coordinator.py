@@ -8,18 +8,18 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.gait.command import advance_anchor, sample, slew
+from gaitwright.gait.command import advance_reference, sample, slew
 from gaitwright.gait.contact_plane import advance_ground, plane_height, plane_normal
 from gaitwright.gait.contacts import advance_legs, is_lifting, is_waited_for, shares, swing_time
-from gaitwright.gait.footholds import STEP, Wish, choose_foothold, is_on_ground, lift_needed
+from gaitwright.gait.footholds import STEP, FootholdRequest, choose_foothold, is_on_ground, lift_needed
 from gaitwright.gait.leg_cycles.files import cycle_of
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle, tabulated_legs
-from gaitwright.gait.reach_assist import helping_shift
+from gaitwright.gait.reach_assist import reach_assist
 from gaitwright.gait.reference import periodic_reference
 from gaitwright.gait.regulation import height_over
 from gaitwright.gait.state import SEARCH, STANCE, SWING, GaitMemory, standing, state_of
 from gaitwright.gait.swing import hip_over_ground, search_reference, swing_reference, touchdown
-from gaitwright.gait.transition import adopt, has_rhythm_of, is_new, takes_over
+from gaitwright.gait.transition import has_rhythm_of, is_new, may_start, start_gait
 from gaitwright.ground.elevation import BLIND, height_at, is_known
 from gaitwright.model.kinematics import all_angles, all_feet, angles, feet, knees
 from gaitwright.model.robot import Robot, unpacked
@@ -78,7 +78,7 @@ def base_reference(state, table, stand, position, yaw_d):
     vx = c * state.command[0] - s * (state.command[1] + yd)
     vy = s * state.command[0] + c * (state.command[1] + yd)
     climb = state.slope[0] * vx + state.slope[1] * vy
-    at_x, at_y = state.anchor[0] - s * y, state.anchor[1] + c * y
+    at_x, at_y = state.reference_pose[0] - s * y, state.reference_pose[1] + c * y
     ground = plane_height(state.slope, position, position[0], position[1])
     height = height_over(ground, stand, plane_normal(state.slope)) + z
     return (at_x, at_y, height), (vx, vy, climb + zd), (-s * ydd, c * ydd, zdd), (p, pd, pdd)
@@ -138,7 +138,9 @@ def aim(state, leg, ground, x, y, plane, radius, lean, height):
     """
     hold = state.foothold[leg]
     if is_known(ground):
-        _, x, y = choose_foothold(ground, Wish(x, y, hold[0], hold[1], plane - radius, lean, height))
+        _, x, y = choose_foothold(
+            ground, FootholdRequest(x, y, hold[0], hold[1], plane - radius, lean, height)
+        )
         known = height_at(ground, x, y) + radius
         if abs(known - plane) < STEP * height:
             plane = known
@@ -188,7 +190,7 @@ def coordinate(
     at, v = vec(position), vec(velocity)
     feet_w = feet_in_world(model, rotation_wb, at, q)
     if is_new(state, clock, offsets):
-        was = adopt(state, clock, offsets, cycles, asked, model, rotation_wb, at, feet_w, height)
+        was = start_gait(state, clock, offsets, cycles, asked, model, rotation_wb, at, feet_w, height)
     phase = state.phase[0]
     step = dt / period if duty < 1.0 else 0.0
     missing = is_waited_for(state, phase, step, duty, offsets, period, dt)
@@ -202,23 +204,23 @@ def coordinate(
     state.phase[0] = phase
     advance_ground(state.slope, state.contact, at, v, 0.5 * period, dt)
     slew(state.command, asked, asked[2], GRAVITY, height, dt)
-    advance_anchor(state.anchor, state.command, at, heading(rotation_wb), height, dt)
+    advance_reference(state.reference_pose, state.command, at, heading(rotation_wb), height, dt)
 
-    base_p, base_v, base_a, pitch = base_reference(state, table, stand, at, state.anchor[2])
+    base_p, base_v, base_a, pitch = base_reference(state, table, stand, at, state.reference_pose[2])
     normal = plane_normal(state.slope)
-    level = upright_rotation(normal, state.anchor[2])
-    rotation_d, spin, spin_rate = pitching(level, pitch, state.command[2])
+    level = upright_rotation(normal, state.reference_pose[2])
+    rotation_d, omega, omega_rate = pitching(level, pitch, state.command[2])
     feet_p, feet_v, feet_a = feet_reference(
         model, state, clock, cycles, leans, ground, level, at, v, base_v, feet_w, height
     )
-    base_p = add(base_p, helping_shift(model, state, rotation_d, base_p, feet_w, duty, height))
+    base_p = add(base_p, reach_assist(model, state, rotation_d, base_p, feet_w, duty, height))
     out = np.empty(TARGET_BODY + TARGET_LEG * felt.size)
     target = target_fields(out)
     target.phase[0], target.command[:] = phase, state.command
     target.stance[:] = state.mode == STANCE
-    target.share[:] = shares(state, phase, period, duty, offsets, missing)
+    target.load_scale[:] = shares(state, phase, period, duty, offsets, missing)
     write(target.normal_w, 0, normal)
-    write_body(target, base_p, base_v, base_a, rotation_d, spin, spin_rate)
+    write_body(target, base_p, base_v, base_a, rotation_d, omega, omega_rate)
     target.feet_w[:], target.feet_velocity_w[:], target.feet_acceleration_w[:] = feet_p, feet_v, feet_a
     in_base = feet_in_base(rotation_d, base_p, feet_p)
     target.q[:], _ = all_angles(model.hip, model.leg_frame, model.offset, model.sign, model.branch, in_base)
@@ -331,7 +333,7 @@ class Coordinator:
         if now is None or asked is now or has_rhythm_of(asked, now):
             return asked
         speed = math.hypot(sensed.velocity_w[0], sensed.velocity_w[1])
-        return asked if takes_over(asked, speed, self.robot.height) else now
+        return asked if may_start(asked, speed, self.robot.height) else now
 
     @cached_property
     def threshold(self) -> float:

@@ -103,7 +103,7 @@ class DesiredCycle:
         return MotionTarget(
             phase=float(self.phase[i]),
             stance=self.stance[i].copy(),
-            share=self.stance[i].astype(float),
+            load_scale=self.stance[i].astype(float),
             normal_w=UP.copy(),
             position_w=self.position_w[i].copy(),
             velocity_w=self.velocity_w[i].copy(),

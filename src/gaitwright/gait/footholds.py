@@ -30,7 +30,7 @@ LOW = 0.25
 """Where a foot is lifted by less than this share of its highest, it is taken to be at its ends."""
 
 
-class Wish(NamedTuple):
+class FootholdRequest(NamedTuple):
     """A foothold that is asked for."""
 
     x: float

@@ -40,7 +40,7 @@ def stretched(model, leg):
 
 
 @kernel
-def helping_shift(model, state, rotation_d, base_p, feet_w, duty, height):
+def reach_assist(model, state, rotation_d, base_p, feet_w, duty, height):
     """How far the wanted place of the base gives way to legs near the end of their reach, world [m]."""
     most = MOST_ASIDE * height if duty * feet_w.shape[0] >= 3.0 else 0.0
     x = y = z = 0.0

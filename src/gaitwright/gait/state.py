@@ -20,8 +20,8 @@ class GaitState(NamedTuple):
     """Phase φ in [0, 1)."""
     command: Float[np.ndarray, "3"]
     """Slewed command: forward, left [m/s], yaw rate [rad/s]."""
-    anchor: Float[np.ndarray, "3"]
-    """Where the body should be by now: x, y [m], yaw [rad]; on a leash."""
+    reference_pose: Float[np.ndarray, "3"]
+    """Where the body should be by now: x, y [m], yaw [rad]; on a lead."""
     slope: Float[np.ndarray, "3"]
     """Ground plane of the foot centres: ∂z/∂x, ∂z/∂y, and its height under the base [m]."""
     waited: Float[np.ndarray, "1"]
@@ -75,7 +75,7 @@ def standing(feet_w: np.ndarray, position_w: np.ndarray, yaw: float, phase: floa
     state = GaitState(
         phase=np.array([phase]),
         command=np.zeros(3),
-        anchor=np.array([position_w[0], position_w[1], yaw]),
+        reference_pose=np.array([position_w[0], position_w[1], yaw]),
         slope=np.array([0.0, 0.0, ground]),
         waited=np.zeros(1),
         clock=np.zeros(2),

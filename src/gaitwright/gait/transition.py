@@ -26,7 +26,7 @@ STANDING = 0.12
 """A robot slower than this share of √(g h) may stop stepping."""
 
 
-def takes_over(gait: Gait, speed: float, height: float) -> bool:
+def may_start(gait: Gait, speed: float, height: float) -> bool:
     """Whether a gait can begin at a speed [m/s]; `height`: of the body [m]."""
     if gait.duty >= 1.0:
         return speed < STANDING * math.sqrt(GRAVITY * height)
@@ -47,7 +47,7 @@ def is_new(state, clock, offsets):
 
 
 @kernel
-def adopt(state, clock, offsets, cycles, asked, model, rotation_wb, position, feet_w, height):
+def start_gait(state, clock, offsets, cycles, asked, model, rotation_wb, position, feet_w, height):
     """Begins a gait: sets the clock and the closest phase in `state`, and returns that phase."""
     if state.clock[0] > 0.0 and clock[1] < 1.0:
         state.phase[0] = closest_phase(

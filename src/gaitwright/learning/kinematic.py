@@ -117,14 +117,14 @@ class Body:
         )
         share = float(rng.uniform())
         pose = upright_rotation(tuple(normal.tolist()), self.yaw)
-        spin = np.array([unrest * share * robot.natural_frequency, 0.0, call.turn if call else 0.0])
+        omega = np.array([unrest * share * robot.natural_frequency, 0.0, call.turn if call else 0.0])
         aside = unrest * (1.0 - share) * robot.natural_frequency * robot.height
         c, s = math.cos(self.yaw), math.sin(self.yaw)
         velocity = np.array([self.forward * c - aside * s, self.forward * s + aside * c, 0.0])
         height = float(np.asarray(self.course.scene.height(self.x, self.y))) + robot.height
         position = np.array([self.x, self.y, height])
         still = np.zeros_like(self.q)
-        return Sensed(time, position, quaternion_of(pose), velocity, spin, self.q, still, self.loads(call))
+        return Sensed(time, position, quaternion_of(pose), velocity, omega, self.q, still, self.loads(call))
 
     def loads(self, call: SkillCall | None) -> np.ndarray:
         """The weight shared by the feet that the gait has down."""

@@ -99,6 +99,11 @@ class Robot:
     """Collision box of the floating body: centre and half sizes, base frame [m]."""
 
     @property
+    def stance(self) -> Float[np.ndarray, "legs 3"]:
+        """`nominal_feet` by its name in the first versions."""
+        return self.nominal_feet
+
+    @property
     def n(self) -> int:
         """Number of legs."""
         return len(self.legs)
@@ -161,7 +166,8 @@ def lists_of(robot: Robot) -> dict[str, Any]:
 
 
 def robot_of(values: dict[str, Any]) -> Robot:
-    """The robot of what `lists_of` gave."""
+    """The robot of what `lists_of` gave, in older recordings too."""
+    values = {"nominal_feet" if name == "stance" else name: value for name, value in values.items()}
     arrays: dict[str, Any] = {name: np.array(v) for name, v in values.items() if isinstance(v, list)}
     return Robot(**{**values, **arrays, "legs": tuple(values["legs"])})
 

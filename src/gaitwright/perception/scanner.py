@@ -59,7 +59,7 @@ class Scanner:
             step_down=max(0.0, -float(sudden.min())),
             gap=gap,
             obstacle=obstacle,
-            street=yaw,
+            course=yaw,
         )
 
     def heights(

@@ -70,7 +70,7 @@ def cycle_torques(
         sensed, target = cycle.sensed(i), cycle.target(i)
         packed = packed_load(robot, target, sensed)
         shared = distribute_linear(
-            packed, target.stance, target.share, target.normal_w, before, robot.tau_max, weight, height,
+            packed, target.stance, target.load_scale, target.normal_w, before, robot.tau_max, weight, height,
             sensed.qd, numbers, hints if warm else nothing,
         )  # fmt: skip
         hints, solved[i], iterations[i] = shared.basis, shared.code == 0, shared.steps

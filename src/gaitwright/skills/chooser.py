@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 from gaitwright.model.robot import Robot
 from gaitwright.signals import Route, Sensed, SkillCall
-from gaitwright.skills.following import braked, heading_error, turn_rate, wished_speed
 from gaitwright.skills.library import (
     Skill,
     check_speed,
@@ -14,6 +13,7 @@ from gaitwright.skills.library import (
     gait_of,
     meant,
 )
+from gaitwright.skills.path_following import approach_speed, heading_error, turn_rate, wished_speed
 from gaitwright.stages import Map, Now
 
 TURN_FIRST = math.radians(40)
@@ -41,7 +41,7 @@ class DefaultChooser:
             )
         wished = wished_speed(self.robot, route)
         self.gait_for(wished)
-        slowed = braked(self.robot, route)
+        slowed = approach_speed(self.robot, route)
         skill = self.gait_for(slowed)
         because = f"{route.remaining:.1f} m to go" + (", slowing down" if slowed < wished else "")
         return self.call(skill.name, route, forward=slowed * math.cos(error), turn=turn, because=because)

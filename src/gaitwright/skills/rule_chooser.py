@@ -14,8 +14,8 @@ from gaitwright.model.robot import Robot
 from gaitwright.signals import Route, Sensed, SkillCall
 from gaitwright.skills.book_trees import in_trees_of, up_to_date
 from gaitwright.skills.chooser import DefaultChooser
-from gaitwright.skills.following import braked, heading_error, turn_rate
 from gaitwright.skills.library import fastest, find_skill, gait_of, skill_names, speed_scale
+from gaitwright.skills.path_following import approach_speed, heading_error, turn_rate
 from gaitwright.skills.situation import measured, named
 from gaitwright.stages import Map, Now
 
@@ -105,7 +105,7 @@ def carry_out(robot: Robot, action: Action, route: Route, sensed: Sensed) -> Ski
     skill, scale = find_skill(action.skill, robot), speed_scale(robot)
     error = heading_error(route, sensed) if route.path else 0.0
     most = min(action.fastest * scale, fastest(skill, robot))
-    speed = min(most, max(braked(robot, route), min(action.slowest * scale, room(robot, route))))
+    speed = min(most, max(approach_speed(robot, route), min(action.slowest * scale, room(robot, route))))
     speed *= max(0.0, math.cos(error)) if skill.way == (1.0, 0.0) else 1.0
     turn = turn_rate(robot, error) if route.path and skill.duty < 1.0 else 0.0
     velocity = (speed * skill.way[0], speed * skill.way[1])
@@ -114,7 +114,7 @@ def carry_out(robot: Robot, action: Action, route: Route, sensed: Sensed) -> Ski
 
 def room(robot: Robot, route: Route) -> float:
     """The fastest speed that leaves time to stop at the goal [m/s]."""
-    return braked(robot, replace(route, speed=math.inf))
+    return approach_speed(robot, replace(route, speed=math.inf))
 
 
 def goes_on(action: Action | None, situation: Situation) -> bool:

@@ -19,8 +19,8 @@ from gaitwright.numerics.geometry import GRAVITY, dot, heading, roll_pitch_yaw, 
 from gaitwright.numerics.matrices import rows
 from gaitwright.signals import Route, Scan, Sensed, SkillCall
 from gaitwright.skills.chooser import KEEP_TURNING, TURN_FIRST
-from gaitwright.skills.following import bearing, braked, heading_error, wished_speed
 from gaitwright.skills.library import LIBRARY, OTHER_NAMES, speed_scale
+from gaitwright.skills.path_following import approach_speed, bearing, heading_error, wished_speed
 
 LOADED = 0.02
 """A foot that carries this share of the weight is down."""
@@ -152,7 +152,7 @@ def measured(robot: Robot, route: Route, sensed: Sensed, call: SkillCall | None 
     h, unit, scale = robot.height, robot.body_length, speed_scale(robot)
     down = float(np.mean(sensed.load > LOADED * robot.total_mass * GRAVITY))
     going = bool(route.path) and not route.arrived
-    off, way = (heading_error(route, sensed), bearing(route, sensed)) if going else (0.0, scan.street)
+    off, way = (heading_error(route, sensed), bearing(route, sensed)) if going else (0.0, scan.course)
     numbers = {
         "feet down": down,
         "slope": math.degrees(scan.slope),
@@ -165,7 +165,7 @@ def measured(robot: Robot, route: Route, sensed: Sensed, call: SkillCall | None 
         "arrived": 1.0 if route.arrived else 0.0 if route.path else -1.0,
         "off the path": math.degrees(off),
         "wished": wished_speed(robot, route) / scale,
-        "possible": braked(robot, route) / scale,
+        "possible": approach_speed(robot, route) / scale,
         "sway": sway(robot, sensed, scan),
         "obstacle": min(OUT_OF_SIGHT, scan.obstacle / unit),
         "effort": torque_utilisation(robot, sensed),
@@ -180,7 +180,7 @@ def measured(robot: Robot, route: Route, sensed: Sensed, call: SkillCall | None 
 def felt(sensed: Sensed) -> Scan:
     """The ground as the body's lean tells it, where nobody looked ahead."""
     roll, pitch, yaw = roll_pitch_yaw(rotation(sensed.orientation_wb))
-    return Scan(slope=-float(pitch), cross=float(roll), street=float(yaw))
+    return Scan(slope=-float(pitch), cross=float(roll), course=float(yaw))
 
 
 def sway(robot: Robot, sensed: Sensed, scan: Scan) -> float:

@@ -56,7 +56,7 @@ def measure(context: Context) -> Iterator[Figure]:
 
 
 def drift(tree: Tree, integrator: str, dt: float, wanted: Wanted | None, seed: int) -> tuple[Figure, Figure]:
-    """What a free spin gains or loses in 3 s: of its energy, and of its momentum."""
+    """What a free omega gains or loses in 3 s: of its energy, and of its momentum."""
     energy, linear, angular = free_motion_drift(tree, integrator, dt, seed=seed)
     note = f"momentum {linear:.1e} N·s, angular {angular:.1e}"
     what = f"free motion, {integrator}, {1e3 * dt:g} ms: drift of the"

@@ -38,7 +38,7 @@ def unlike(ours: np.ndarray, theirs: np.ndarray) -> float:
 
 # --- hinge legs ------------------------------------------------------------------------------------
 def pinocchio_state(robot: Robot, state: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """q, v and a of the same state, base upright at the origin and at rest but for its spin."""
+    """q, v and a of the same state, base upright at the origin and at rest but for its omega."""
     w, wd, a = state[:9].reshape(3, 3)
     q, qd, qdd = state[9:].reshape(3, -1)
     true = a - GRAVITY * UP  # ours is less gravity

@@ -53,6 +53,7 @@ def loads(trial: Trial, every: int = 1) -> Iterator[Task]:
         if number % every == 0:
             target, sensed = lap.target, lap.sensed
             yield Task(
-                load_of(packed_load(robot, target, sensed)), target.stance, target.share, target.normal_w,
+                load_of(packed_load(robot, target, sensed)), target.stance, target.load_scale,
+                target.normal_w,
                 last.command.forces_w, robot.tau_max, sensed.qd, weight, robot.height,
             )  # fmt: skip

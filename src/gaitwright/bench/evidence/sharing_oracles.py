@@ -42,7 +42,7 @@ class Task:
 
     load: Load
     stance: Bool[np.ndarray, "legs"]
-    share: Float[np.ndarray, "legs"]
+    load_scale: Float[np.ndarray, "legs"]
     """How much of the bound of its normal force a foot may use."""
     normal_w: Float[np.ndarray, "3"]
     previous_w: Float[np.ndarray, "legs 3"]
@@ -58,14 +58,16 @@ class Task:
         """Our answer by the linear program, from the last basis where `hints` has one."""
         none = np.full(int(asked.components) * self.stance.size + 1, -1)
         return distribute_linear(
-            self.packed, self.stance, self.share, self.normal_w, self.previous_w, self.tau_max, self.weight,
+            self.packed, self.stance, self.load_scale, self.normal_w, self.previous_w, self.tau_max,
+            self.weight,
             self.height, self.qd, np.array(asked), none if hints is None else hints,
         )  # fmt: skip
 
     def quadratic(self) -> tuple[np.ndarray, np.ndarray, int, int]:
         """Our answer by the quadratic program: forces `(legs, 3)` [N], prices, code and culprit."""
         x, prices, code, culprit = distribute(
-            self.packed, self.stance, self.share, self.normal_w, self.previous_w, self.tau_max, self.weight,
+            self.packed, self.stance, self.load_scale, self.normal_w, self.previous_w, self.tau_max,
+            self.weight,
             self.height,
         )  # fmt: skip
         return to_world(x, self.stance, contact_frame(self.normal_w), self.weight), prices, code, culprit
@@ -118,7 +120,7 @@ def limits_of(task: Task) -> tuple[np.ndarray, np.ndarray]:
     t1, t2, n = contact_frame(task.normal_w)
     rows, least = [], []
     for k, leg in enumerate(task.down):
-        sides = [(n, 0.0), (-n, -MOST_NORMAL * task.share[leg] * task.weight)]
+        sides = [(n, 0.0), (-n, -MOST_NORMAL * task.load_scale[leg] * task.weight)]
         sides += [(FRICTION * n - s * t, 0.0) for t in (t1, t2) for s in (1, -1)]
         for push, free, most in zip(task.load.push[leg], task.load.free[leg], task.tau_max[leg], strict=True):
             sides += [(s * push, s * free - most) for s in (1, -1)]
@@ -234,7 +236,7 @@ def contact(program: Program, task: Task, asked: LinearSettings, foot: Foot, leg
     axes = contact_frame(task.normal_w)
     normal = foot.row(axes[2], NONE)
     program.at_most(-normal, 0.0)
-    program.at_most(normal, asked.most_normal * task.share[leg])
+    program.at_most(normal, asked.most_normal * task.load_scale[leg])
     if asked.literal:
         program.cost += (1.0 - asked.xi) * normal
     else:

@@ -39,7 +39,7 @@ class Climber:
         target = MotionTarget(
             phase=time / call.gait.period % 1.0,
             stance=stance,
-            share=stance.astype(float),
+            load_scale=stance.astype(float),
             normal_w=UP.copy(),
             position_w=made.position_w[1],
             velocity_w=rate(made.position_w),

@@ -21,7 +21,7 @@ Side = Literal["ours", "theirs", "both"]
 
 
 @dataclass(frozen=True)
-class Wish:
+class FootholdRequest:
     """What was taught last in a situation, and by whom."""
 
     lesson: Lesson
@@ -43,11 +43,11 @@ def settle(joining: Joining) -> None:
             joining.report(lost(joining, wish))
 
 
-def wishes(joining: Joining) -> list[Wish]:
+def wishes(joining: Joining) -> list[FootholdRequest]:
     """The last lesson in each situation that its own book follows, and that no conflict reports yet; ours
     where both teach there."""
     ours, theirs, shared = joining.ours, joining.theirs, joining.shared
-    found: dict[Situation, Wish] = {}
+    found: dict[Situation, FootholdRequest] = {}
     sides: list[tuple[Side, Sequence[Step], Sequence[Skillbook]]] = [
         ("both", ours.steps[:shared], (ours, theirs)),
         ("theirs", theirs.steps[shared:], (theirs,)),
@@ -61,7 +61,7 @@ def wishes(joining: Joining) -> list[Wish]:
             if isinstance(stated, str) or stated.id in joining.given_up:
                 continue
             if all(follows(book.rulebook, step.lesson) for book in books):
-                found[stated.situation] = Wish(stated, side)
+                found[stated.situation] = FootholdRequest(stated, side)
     return list(found.values())
 
 
@@ -79,7 +79,7 @@ def follows(rulebook: Rulebook, lesson: Lesson) -> bool:
     return consult(rulebook, stated.situation).rule in same_action(rulebook, lesson.rule)
 
 
-def lost(joining: Joining, wish: Wish) -> Conflict:
+def lost(joining: Joining, wish: FootholdRequest) -> Conflict:
     """What fires in place of what was taught, and the nearest situation in which that was right."""
     book, lesson = joining.rulebook, wish.lesson
     fires = consult(book, lesson.situation).rule

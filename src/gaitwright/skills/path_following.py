@@ -40,7 +40,7 @@ def wished_speed(robot: Robot, route: Route) -> float:
     return route.speed if route.speed is not None else LIBRARY["trot"].speed * speed_scale(robot)
 
 
-def braked(robot: Robot, route: Route) -> float:
+def approach_speed(robot: Robot, route: Route) -> float:
     """The wished speed [m/s], no more than leaves time to stop at the goal."""
     scale = speed_scale(robot)
     return min(wished_speed(robot, route), max(CREEP * scale, BRAKING / scale * route.remaining))

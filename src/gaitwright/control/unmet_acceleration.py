@@ -53,7 +53,7 @@ def lumped(packed, q):
 
 
 @kernel
-def shortfall(packed, moment, load_numbers, forces):
+def unmet_acceleration(packed, moment, load_numbers, forces):
     """What the base's acceleration falls short of the wanted one by: linear and angular, world axes.
 
     `load_numbers`: the packed `Load` of the wanted motion; `forces`: what the feet give, world `(legs, 3)`.
