@@ -15,14 +15,16 @@ from gaitwright.description.load import load_robot
 from gaitwright.errors import NoRoom
 from gaitwright.ground.scene import load_scene
 from gaitwright.locomotion import Brain, Lap
+from gaitwright.pictures import trip_picture
 from gaitwright.plant.mujoco.simulation import MujocoPlant
 from gaitwright.record import metrics, rows
 from gaitwright.record.channels import SITUATION
+from gaitwright.record.mcap_export import export_mcap
 from gaitwright.record.moment import call_at, route_at, sensed_at
 from gaitwright.record.recording import Recorder, Recording, load
 from gaitwright.session import Session
 from gaitwright.signals import Mission
-from gaitwright.skills.situation import situation
+from gaitwright.skills.situation import measured, named
 
 ROBOT = load_robot("go2")
 posix = pytest.mark.skipif(os.name != "posix", reason="limits of a process are POSIX's")
@@ -147,11 +149,6 @@ def test_an_older_recording_is_read_without_its_situation(short: Recording, tmp_
 def test_mcap_and_picture_of_a_filed_recording_are_those_of_one_in_memory(
     short: Recording, filed: Recording, tmp_path: Path
 ):
-    pytest.importorskip("mcap_ros2")
-    pytest.importorskip("matplotlib")
-    from gaitwright.pictures import trip_picture
-    from gaitwright.record.mcap_export import export_mcap
-
     here, there = (export_mcap(r, tmp_path / f"{k}.mcap") for k, r in enumerate((short, filed)))
     assert here.read_bytes() == there.read_bytes()
     scene = load_scene("stairs:0.1", 0)
@@ -174,7 +171,7 @@ def test_a_recording_keeps_the_situation(laps: list[Lap], filed: Recording):
 def test_the_situation_of_a_recording_is_the_one_that_was_met(laps: list[Lap], filed: Recording):
     for tick in (1, 400, 1000, len(laps) - 1):
         lap, before = laps[tick], laps[tick - 1].call
-        met = situation(ROBOT, lap.route, lap.sensed, before)
+        met = named(measured(ROBOT, lap.route, lap.sensed, before), before)
         assert situation_at(filed, tick) == dict(met.items())
 
 
