@@ -1,0 +1,199 @@
+"""The options of each command."""
+
+import argparse
+
+from gaitwright.cli.arg_types import (
+    BOOK_TASKS,
+    DRIVERS,
+    book_task,
+    count,
+    distribution,
+    driver,
+    duration,
+    finite,
+    integrator,
+    plant,
+    point,
+    positive,
+    seed,
+)
+from gaitwright.plant.names import INTEGRATORS, PLANTS
+
+
+def add_demo(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--seed", type=seed, default=8, metavar="N", help="draws the blocks and the start (8)"
+    )
+    parser.add_argument("--out", metavar="DIR", help="a new folder for the files (runs/demo-NNN)")
+    add_plant(parser)
+
+
+def add_mission(parser: argparse.ArgumentParser) -> None:
+    add_robot_and_scene(parser, scene="blocks")
+    start = "start here, yaw in radians (where the scene says)"
+    parser.add_argument("--start", type=finite, nargs=3, metavar=("X", "Y", "YAW"), help=start)
+    where = parser.add_mutually_exclusive_group(required=True)
+    where.add_argument("--goal", type=finite, nargs=2, metavar=("X", "Y"), help="where to go [m]")
+    through = "points to pass in this order; the last one is the goal"
+    where.add_argument("--waypoints", type=point, nargs="+", metavar="X,Y", help=through)
+    fitting = "wished speed in m/s (what the robot trots at)"
+    parser.add_argument("--speed", type=positive, metavar="V", help=fitting)
+    rules = "driver hybrid: the rules that choose the skills, as a school left them"
+    parser.add_argument("--skillbook", metavar="FILE", help=rules)
+    add_run(parser, seconds=120.0)
+
+
+def add_skill(parser: argparse.ArgumentParser) -> None:
+    add_robot_and_scene(parser, scene="flat")
+    parser.add_argument(
+        "--skill", default="trot", metavar="NAME", help="a name that `gaitwright skills` lists (trot)"
+    )
+    parser.add_argument(
+        "--speed", type=finite, metavar="V", help="along the skill's way, in m/s (what it is meant for)"
+    )
+    parser.add_argument("--lateral", type=finite, default=0.0, metavar="V", help="to the left, in m/s (0)")
+    parser.add_argument(
+        "--turn",
+        type=finite,
+        metavar="W",
+        help="yaw rate to the left, in rad/s (what the skill is meant for)",
+    )
+    cycle = "move the feet along this leg cycle: a name, or a JSON file (the skill's own)"
+    parser.add_argument("--cycle", metavar="NAME|FILE", help=cycle)
+    push = (
+        "push the body for 0.1 s after half of the time: impulse in N·s per kg of the robot's mass, "
+        "direction in degrees from straight ahead, counter-clockwise (90 is to the left)"
+    )
+    parser.add_argument("--push", type=finite, nargs=2, metavar=("IMPULSE", "DIRECTION"), help=push)
+    add_run(parser, seconds=10.0)
+
+
+def add_robot_and_scene(parser: argparse.ArgumentParser, scene: str) -> None:
+    robot = "a name that `gaitwright robots` lists, or an MJCF or URDF file (go2)"
+    parser.add_argument("--robot", default="go2", metavar="NAME|FILE", help=robot)
+    where = f"a name that `gaitwright scenes` lists, or a JSON file ({scene})"
+    parser.add_argument("--scene", default=scene, metavar="NAME|FILE", help=where)
+
+
+def add_run(parser: argparse.ArgumentParser, seconds: float) -> None:
+    who = "who computes the torques: " + "; ".join(f"{name}, which {what}" for name, what in DRIVERS.items())
+    parser.add_argument("--driver", type=driver, default="numerical", metavar="NAME", help=who)
+    how = "how the numerical driver shares the load over the feet: qp, or lp as in the thesis (qp)"
+    parser.add_argument("--distribution", type=distribution, default="qp", metavar="qp|lp", help=how)
+    longest = (
+        f"longest time to simulate ({seconds:g})"
+        if parser.prog.endswith("mission")
+        else f"how long ({seconds:g})"
+    )
+    parser.add_argument("--seconds", type=duration, default=seconds, metavar="T", help=longest)
+    random = "draws the random parts of the scene and small differences of the start (0)"
+    parser.add_argument("--seed", type=seed, default=0, metavar="N", help=random)
+    parser.add_argument("--out", metavar="DIR", help="a new folder for picture, recording and report")
+    add_plant(parser)
+
+
+def add_plant(parser: argparse.ArgumentParser) -> None:
+    world = (
+        f"whose mechanics move the robot: {listed(PLANTS)}; on plant armstrong only feet touch ground and "
+        "boxes (mujoco)"
+    )
+    parser.add_argument("--plant", type=plant, default="mujoco", metavar="NAME", help=world)
+    how = f"how plant armstrong steps through time: {listed(INTEGRATORS)} (semi-implicit)"
+    parser.add_argument("--integrator", type=integrator, metavar="NAME", help=how)
+    step = "step of the physics in seconds, a part of 0.002 (mujoco: all of it; armstrong: what is safe)"
+    parser.add_argument("--timestep", type=positive, metavar="SECONDS", help=step)
+    often = "plant armstrong: slow coefficients of the recursion at every N-th step (1)"
+    parser.add_argument("--refresh", type=count, metavar="N", help=often)
+    check = (
+        "compare produced with desired motion and recursions with their closed forms, and tell the limit "
+        "that cost most"
+    )
+    parser.add_argument("--check", action="store_true", help=check)
+
+
+def listed(offers: dict[str, str]) -> str:
+    """Names with what they are, for a help."""
+    return "; ".join(f"{name}, {what}" for name, what in offers.items())
+
+
+def add_robots(parser: argparse.ArgumentParser) -> None:
+    which = "examine this robot: a name, or an MJCF or URDF file"
+    parser.add_argument("--check", metavar="FILE|NAME", help=which)
+
+
+def add_skills(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--robot", default="go2", metavar="NAME|FILE", help="the robot whose speeds to show (go2)"
+    )
+    parser.add_argument("--plot", action="store_true", help="draw the leg cycles, see --out")
+    cycle = "check and draw this leg cycle: climb, trot, walk, or a JSON file"
+    parser.add_argument("--cycle", metavar="NAME|FILE", help=cycle)
+    parser.add_argument("--out", metavar="FILE", help="where to draw (runs/skills-ROBOT.png)")
+
+
+def add_teach(parser: argparse.ArgumentParser) -> None:
+    lesson = "what is taught: skills, which to use where (skills)"
+    parser.add_argument("--lesson", choices=["skills"], default="skills", metavar="NAME", help=lesson)
+    robot = "a name that `gaitwright robots` lists, or an MJCF or URDF file (go2)"
+    parser.add_argument("--robot", default="go2", metavar="NAME|FILE", help=robot)
+    parser.add_argument("--out", required=True, metavar="BOOK", help="a new skillbook, e.g. go2.skills")
+    start = "go on from this skillbook, also an older one; it stays as it is (begin with no rules)"
+    parser.add_argument("--from", dest="start", metavar="BOOK", help=start)
+    trips = "trips that the rules make with the teacher watching (60)"
+    parser.add_argument("--trips", type=count, default=60, metavar="N", help=trips)
+    parser.add_argument("--seed", type=seed, default=0, metavar="N", help="draws the trips (0)")
+
+
+def add_explain(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("book", metavar="BOOK", help="the rulebook's file")
+    where = "the situation: a value for each tree that matters"
+    parser.add_argument("--situation", nargs="+", metavar="TREE=VALUE", help=where)
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument("--rule", metavar="NAME", help="tell of this rule: its conditions and its trees")
+    why_not = "tell why this rule does not fire (in the situation of the last lesson)"
+    which.add_argument("--not", dest="why_not", metavar="NAME", help=why_not)
+    which.add_argument("--history", metavar="NAME", help="tell what every lesson did to this rule")
+    parser.add_argument("--recording", metavar="FILE", help="take the situation from a recording")
+    parser.add_argument("--at", type=finite, metavar="T", help="at this moment of it, in seconds (its end)")
+    parser.add_argument("--plot", action="store_true", help="draw the trees, see --out")
+    parser.add_argument("--out", metavar="FILE", help="where to draw (runs/explain-BOOK.png)")
+
+
+def add_books(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("task", type=book_task, metavar="TASK", help=listed(BOOK_TASKS))
+    parser.add_argument("files", nargs="+", metavar="FILE", help="the books, or the text to import")
+    out = "the new book, or where the text goes (export: the standard output)"
+    parser.add_argument("--out", metavar="FILE|-", help=out)
+    base = "merge: the book that both come from (found without being named, checked where it is)"
+    parser.add_argument("--base", metavar="BOOK", help=base)
+
+
+def add_bench(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("names", nargs="*", metavar="NAME", help="what to measure (everything)")
+    parser.add_argument("--quick", action="store_true", help="fewer repetitions: a look, not a result")
+
+
+def add_reproduce(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("names", nargs="*", metavar="NAME", help="what to reproduce (all)")
+    where = "a folder for the files (runs/reproduce)"
+    parser.add_argument("--out", default="runs/reproduce", metavar="DIR", help=where)
+
+
+def add_nothing(parser: argparse.ArgumentParser) -> None:
+    """A command of `--json` alone."""
+
+
+ADD = {
+    "demo": add_demo,
+    "mission": add_mission,
+    "skill": add_skill,
+    "robots": add_robots,
+    "scenes": add_nothing,
+    "skills": add_skills,
+    "teach": add_teach,
+    "explain": add_explain,
+    "books": add_books,
+    "bench": add_bench,
+    "reproduce": add_reproduce,
+    "doctor": add_nothing,
+}
