@@ -1,0 +1,130 @@
+"""What the feet should do: where each is to land, how it gets there, and what it must clear (rows J3, J8)."""
+
+import math
+
+import numpy as np
+from jaxtyping import Float
+
+from gaitwright.gait.contact_plane import plane_height
+from gaitwright.gait.contacts import swing_time
+from gaitwright.gait.footholds import STEP, FootholdRequest, choose_foothold, lift_needed
+from gaitwright.gait.state import SEARCH, SWING
+from gaitwright.gait.swing import hip_over_ground, search_reference, swing_reference, touchdown
+from gaitwright.ground.elevation import height_at, is_known
+from gaitwright.model.kinematics import all_feet, angles, feet, knees
+from gaitwright.model.robot import Robot
+from gaitwright.numerics.compiled import kernel
+from gaitwright.numerics.geometry import GRAVITY, sub, times, times_t, vec
+
+STILL_RISING = 0.4
+"""Up to this share of a swing its height is fitted to the ground."""
+
+
+@kernel
+def feet_in_world(model, rotation_wb, position, q):
+    """Foot centres `(legs, 3)` in the world [m]."""
+    out = all_feet(model.hip, model.leg_frame, model.offset, model.sign, q)
+    for leg in range(out.shape[0]):
+        p = times(rotation_wb, vec(out[leg]))
+        for i in range(3):
+            out[leg, i] = position[i] + p[i]
+    return out
+
+
+@kernel
+def feet_in_base(rotation_wb, position, feet_w):
+    """World foot centres `(legs, 3)` seen from a base at `position` with `rotation_wb` [m]."""
+    out = np.empty(feet_w.shape)
+    for leg in range(feet_w.shape[0]):
+        p = times_t(rotation_wb, sub(vec(feet_w[leg]), position))
+        out[leg, 0], out[leg, 1], out[leg, 2] = p
+    return out
+
+
+@kernel
+def feet_reference(
+    model, state, clock, cycles, leans, ground, rotation_d, position, velocity, wanted, feet_w, height
+):
+    """References `(legs, 3)` of the foot centres: position, velocity, acceleration.
+
+    Footholds and lifts of `state` are brought up to date with it.
+    """
+    period, duty = clock
+    n = feet_w.shape[0]
+    p, v, a = feet_w.copy(), np.zeros((n, 3)), np.zeros((n, 3))
+    duration = swing_time(period, duty)
+    capture = math.sqrt(height / GRAVITY)
+    for leg in range(n):
+        if state.mode[leg] == SWING:
+            s = min(state.progress[leg], 1.0)
+            hip_x, hip_y, arm_x, arm_y = hip_over_ground(rotation_d, position, model.nominal_feet[leg])
+            x, y = touchdown(
+                hip_x,
+                hip_y,
+                arm_x,
+                arm_y,
+                velocity,
+                wanted,
+                state.command[2],
+                (1.0 - s) * duration,
+                period * min(duty, 0.75),
+                capture,
+                height,
+            )
+            radius = model.foot_radius[leg]
+            lean = turned(rotation_d, leans[leg])
+            aim(state, leg, ground, x, y, plane_height(state.slope, position, x, y), radius, lean, height)
+            raise_over(state, leg, ground, s, radius, cycles[leg], height)
+            x, y, z = state.foothold[leg]
+            table, lift = cycles[leg], state.lift[leg]
+            swing_reference(
+                state.origin[leg], x, y, z, s, duration, height, table, lift, p[leg], v[leg], a[leg]
+            )
+        elif state.mode[leg] == SEARCH:
+            search_reference(state.origin[leg], state.progress[leg], height, p[leg], v[leg], a[leg])
+            if is_known(ground):
+                p[leg, 0], p[leg, 1] = state.foothold[leg, 0], state.foothold[leg, 1]
+    return p, v, a
+
+
+@kernel
+def aim(state, leg, ground, x, y, plane, radius, lean, height):
+    """Sets the foothold of a swinging leg: the wished `(x, y)`, or its best neighbour on known ground.
+
+    `plane`: height of the foot's centre on the plane through the last footholds.
+    """
+    hold = state.foothold[leg]
+    if is_known(ground):
+        _, x, y = choose_foothold(
+            ground, FootholdRequest(x, y, hold[0], hold[1], plane - radius, lean, height)
+        )
+        known = height_at(ground, x, y) + radius
+        if abs(known - plane) < STEP * height:
+            plane = known
+    hold[0], hold[1], hold[2] = x, y, plane
+
+
+@kernel
+def raise_over(state, leg, ground, s, radius, table, height):
+    """Raises the swing of a leg as far as the ground on its way asks for; never lowers it again."""
+    if s <= 0.0:
+        state.lift[leg] = 1.0
+    if s < STILL_RISING:
+        x, y, z = state.foothold[leg]
+        needed = lift_needed(ground, state.origin[leg], x, y, z, radius, table, height)
+        state.lift[leg] = max(state.lift[leg], needed)
+
+
+@kernel
+def turned(rotation_wb, lean):
+    """A horizontal direction of the base, in the world."""
+    c, s = rotation_wb[0, 0], rotation_wb[1, 0]
+    k = 1.0 / math.hypot(c, s)
+    return k * (c * lean[0] - s * lean[1]), k * (s * lean[0] + c * lean[1])
+
+
+def shank_leans(robot: Robot) -> Float[np.ndarray, "legs 2"]:
+    """How far each shank leans out over the ground per height in the nominal stance, base axes x, y."""
+    q, _ = angles(robot, robot.nominal_feet)
+    bone = feet(robot, q) - knees(robot, q)
+    return bone[:, :2] / bone[:, 2:]
