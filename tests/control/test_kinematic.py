@@ -13,7 +13,9 @@ from gaitwright.control.servo import NO_NUMBER, STIFF, servo
 from gaitwright.errors import WrongUse
 from gaitwright.gait.desired_cycle import DesiredCycle, Manner, desired_cycle
 from gaitwright.ground.scene import load_scene
-from gaitwright.locomotion import Brain, Controller
+from gaitwright.gait.coordinator import Coordinator
+from gaitwright.gait.leg_cycles.files import load_cycle
+from gaitwright.locomotion import Programmed, Brain, Controller
 from gaitwright.model.robot import Robot
 from gaitwright.plant.mujoco.simulation import MujocoPlant
 from gaitwright.record.recording import Recording
@@ -139,12 +141,30 @@ def test_a_brain_makes_one_programme_for_each_call_and_knows_its_drivers() -> No
     robot = robot_called("go2")
     chooser = fixed_skill(robot, "trot", 0.3, 0.0, 0.0, "programmed")
     brain, call = Brain.of(robot, FLAT, chooser), chooser.skill_call
-    made = brain.controller(call)
-    assert brain.controller(call) is made
-    assert brain.controller(replace(call, velocity=(0.2, 0.0))) is not made
-    assert brain.controller(replace(call, driver="kinematic")) is brain.controllers["kinematic"]
+    driver = brain.controller("programmed")
+    assert isinstance(driver, Programmed)
+    made = driver.programme(call.gait, call.velocity, call.turn)
+    assert driver.programme(call.gait, call.velocity, call.turn) is made
+    assert driver.programme(call.gait, (0.2, 0.0), call.turn) is not made
+    assert brain.controller("kinematic") is brain.controllers["kinematic"]
     with pytest.raises(WrongUse, match=r"no driver 'numeric'.*did you mean 'numerical'"):
-        brain.controller(replace(call, driver="numeric"))
+        brain.controller("numeric")
+
+
+def test_a_leg_cycle_that_is_asked_for_is_followed_by_every_driver() -> None:
+    robot = robot_called("go2")
+    brain = Brain.of(robot, FLAT, fixed_skill(robot, "trot", 0.3, 0.0, 0.0, "programmed"))
+    other = brain.with_cycle("trot", replace(load_cycle("climb"), name="trot"))
+    gait = gait_of(LIBRARY["trot"], robot)
+    lifts = []
+    for one in (brain, other):
+        driver = one.controller("programmed")
+        assert isinstance(driver, Programmed)
+        table = driver.programme(gait, (0.3, 0.0), 0.0).table
+        swing = np.array([feet(robot, q)[:, 2].max() for q in table])
+        assert isinstance(one.coordinator, Coordinator)
+        lifts.append((float(np.ptp(swing)), float(one.coordinator.cycle(gait).legs[0, :, 3].max())))
+    assert lifts[1][0] > 1.1 * lifts[0][0] and lifts[1][1] > 1.1 * lifts[0][1]
 
 
 # --- in full physics -------------------------------------------------------------------------------

@@ -84,6 +84,15 @@ def test_a_scene_is_as_high_as_its_highest_thing() -> None:
     np.testing.assert_allclose(scene.normal(2.0, 0.0), scene.surface.normal(2.0, 0.0))
 
 
+@pytest.mark.parametrize("name", ["gap:0.2", "gap:0.6"])
+def test_a_floor_made_of_blocks_is_no_obstacle_but_what_stands_on_it_is(name: str) -> None:
+    scene = load_scene(name)
+    step = BLIND_STEP * DOG.height
+    assert scene.obstacles(step) == ()
+    wall = Box(0.6, 1.0, 0.0, 0.2, 0.2, 0.5 + 0.3)
+    assert replace(scene, boxes=(*scene.boxes, wall)).obstacles(step) == (wall,)
+
+
 def test_only_what_is_too_high_to_step_on_is_an_obstacle() -> None:
     low, high = Box(0.0, 0.0, 0.0, 1.0, 1.0, 0.05), Box(3.0, 0.0, 0.0, 1.0, 1.0, 0.07)
     scene = Scene("two", Flat(), (low, high))

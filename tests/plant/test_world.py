@@ -195,6 +195,6 @@ def test_several_robots_share_a_world_and_are_obstacles_to_each_other() -> None:
     for _ in range(500):
         heap.advance(idle, 1)
         bodies = heap.model.geom_bodyid[[pair for contact in heap.data.contact for pair in contact.geom]]
-        owners = ["ab"[body >= heap.addresses[1].base] if body else "" for body in bodies]
+        owners = ["ab"[int(body >= heap.addresses[1].base)] if body else "" for body in bodies]
         touching |= {owners[i] + owners[i + 1] for i in range(0, len(owners), 2)}
     assert {"ab"} <= touching <= {"ab", "a", "b"}, "the one lies on the other, and neither touches itself"

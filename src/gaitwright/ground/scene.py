@@ -51,15 +51,18 @@ class Scene:
         return float(self.surface.height(box.x, box.y)) + box.base + box.height
 
     def obstacles(self, step: float) -> tuple[Box, ...]:
-        """The boxes that are too high to step on: higher than `step` [m], but for the floor under the start.
+        """The boxes that are too high to step on, by more than `step` [m], but for a floor made of boxes.
 
-        A floor of boxes is the one under the start, with all whose tops are no higher than it and a step.
+        Such a floor is what covers more than half of the field and is no higher than the start and a step.
         """
         x, y, _ = self.start
-        start = float(self.height(x, y))
-        on_box = start > float(self.surface.height(x, y))
-        high = (box for box in self.boxes if box.height > step)
-        return tuple(box for box in high if not (on_box and self.top(box) <= start + step))
+        level = float(self.height(x, y)) + step
+        high = tuple(box for box in self.boxes if box.height > step)
+        floor = tuple(box for box in high if self.top(box) <= level)
+        x_min, y_min, x_max, y_max = self.bounds
+        if sum(box.lx * box.ly for box in floor) <= 0.5 * (x_max - x_min) * (y_max - y_min):
+            return high
+        return tuple(box for box in high if box not in floor)
 
     def _tops(self, x: Number, y: Number) -> Float[np.ndarray, "..."]:
         """Top of the highest box at a place [m], -inf where there is none."""
