@@ -114,7 +114,7 @@ def test_facts_describe_the_situation_they_were_made_from(school):
     assert intervals
     for situation in school.held_out(2, 20):
         facts = rule_decisions.facts_of(school.forest, situation)
-        assert school.forest.from_memory(facts) == situation
+        assert school.forest.read({}, facts) == situation
         rule, _ = rule_decisions.built(school.table, intervals, facts)
         assert rule == school.right(situation)
 
