@@ -11,11 +11,12 @@ from gaitwright.control.kinematic import KinematicController, wanted_rates
 from gaitwright.control.programmed import ProgrammedController, played
 from gaitwright.control.servo import NO_NUMBER, STIFF, servo
 from gaitwright.errors import WrongUse
-from gaitwright.gait.desired_cycle import DesiredCycle, Manner, desired_cycle
-from gaitwright.ground.scene import load_scene
 from gaitwright.gait.coordinator import Coordinator
+from gaitwright.gait.desired_cycle import DesiredCycle, Manner, desired_cycle
 from gaitwright.gait.leg_cycles.files import load_cycle
-from gaitwright.locomotion import Programmed, Brain, Controller
+from gaitwright.ground.scene import load_scene
+from gaitwright.locomotion import Brain, Controller, Programmed
+from gaitwright.model.kinematics import feet
 from gaitwright.model.robot import Robot
 from gaitwright.plant.mujoco.simulation import MujocoPlant
 from gaitwright.record.recording import Recording
