@@ -36,7 +36,7 @@ def dog() -> Robot:
         tau_max=ones * [23.7, 23.7, 45.4],
         foot_radius=np.full(4, 0.022),
         branch=-np.ones((4, 2), dtype=int),
-        stance=np.stack([0.19 * FORE, 0.14 * SIDE, np.full(4, -0.268)], axis=1),
+        nominal_feet=np.stack([0.19 * FORE, 0.14 * SIDE, np.full(4, -0.268)], axis=1),
         trunk=np.array([[0.0, 0.0, 0.0], [0.19, 0.05, 0.06]]),
     )
 

@@ -176,7 +176,7 @@ def test_what_is_no_gait_of_the_robot_is_wrong_use():
         shortage(GO2, gait("trot"), (np.nan, 0.0))
 
 
-@pytest.mark.parametrize("load_scale", [1.0, 0.5])
+@pytest.mark.parametrize("share", [1.0, 0.5])
 def test_the_fastest_speed_is_where_something_is_missing(share: float):
     robot = weakened(GO2, share)
     skill = find_skill("trot", robot)
@@ -206,7 +206,7 @@ def simulated(robot: Robot, name: str, speed: float, seconds: float = 2.5) -> Re
     return walk(brain, make_plant("mujoco", robot, scene), Mission(()), seconds, 0)
 
 
-@pytest.mark.parametrize(("load_scale", "stands"), [(1.15, True), (0.85, False)])
+@pytest.mark.parametrize(("share", "stands"), [(1.15, True), (0.85, False)])
 def test_go2_stands_just_as_long_as_its_motors_are_said_to_suffice(share: float, stands: bool):
     robot = weakened(GO2, of("stand", 0.0).load * share)
     assert (shortage(robot, gait("stand"), (0.0, 0.0)) is None) == stands

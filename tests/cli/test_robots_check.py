@@ -164,7 +164,7 @@ def test_a_stance_beyond_its_limits_is_told():
     assert "the knee of RL stands" in stance_with(GO2, q_min=low).sentence
     feet = GO2.nominal_feet.copy()
     feet[:2, 2] -= 0.03
-    assert "0.030 m from being level" in stance_with(GO2, stance=feet).sentence
+    assert "0.030 m from being level" in stance_with(GO2, nominal_feet=feet).sentence
 
 
 def test_motors_are_judged_by_how_much_is_missing():

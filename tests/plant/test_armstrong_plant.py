@@ -199,7 +199,7 @@ def in_the_air(plant, height: float) -> None:
         parts(plant.system, plant.state).x[2] += height
 
 
-@pytest.mark.parametrize(("name", "load_scale"), [("thesis", 0.25), ("go2", 0.15), ("dog", 0.15)])
+@pytest.mark.parametrize(("name", "share"), [("thesis", 0.25), ("go2", 0.15), ("dog", 0.15)])
 def test_in_the_air_it_moves_as_mujoco_moves_it(name: str, share: float, rng: np.random.Generator) -> None:
     """Motors, gravity, rotors and viscous friction: hinges of ball joints against real ones, for 0.2 s.
 

@@ -110,7 +110,7 @@ def test_at_the_speed_a_gait_is_meant_for_it_is_chosen(name: str) -> None:
     assert gait_at(LIBRARY[name].speed * speed_scale(DOG)) == name
 
 
-@pytest.mark.parametrize("load_scale", [1.05, 1.3, 1.5])
+@pytest.mark.parametrize("share", [1.05, 1.3, 1.5])
 def test_a_little_faster_than_a_trot_is_meant_for_is_still_a_trot(share: float) -> None:
     assert gait_at(share * LIBRARY["trot"].speed * speed_scale(DOG)) == "trot"
 
