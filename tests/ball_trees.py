@@ -56,6 +56,35 @@ def any_motion(tree: Tree, rng: np.random.Generator) -> Motion:
     return Motion(R, w, torque, force, moment, *rng.normal(0.0, 5.0, (3, 3)))
 
 
+def joint_wrenches(tree: Tree, R, w, a0, wd, force, moment, gravity) -> np.ndarray:
+    """Wrenches `(links, 6)` that a motion asks of the joints: force [N], then torque [N·m] (equations.md §4).
+
+    By Newton and Euler about the centres of mass. `a0 (3,)`: acceleration of the root's origin, world axes;
+    `wd (links, 3)`: angular accelerations, link axes. Row k: from the parent on link k at its hinge, link
+    axes, -f and -g of the thesis (eq. 4-16, 4-17). Row 0: what would have to hold the root.
+    """
+    a, out = [R[0].T @ a0], np.zeros((len(w), 6))
+
+    def carried(k: int, r: np.ndarray) -> np.ndarray:
+        """Acceleration of a point at `r` on link `k` (eq. 4-12)."""
+        return a[k] + np.cross(wd[k], r) + np.cross(w[k], np.cross(w[k], r))
+
+    for k in range(1, len(w)):
+        p = tree.parent[k]
+        a.append(R[k].T @ R[p] @ carried(p, tree.hinge[k]))
+    for k in range(len(w) - 1, -1, -1):
+        m, c, p = tree.mass[k], tree.com[k], tree.parent[k]
+        about_centre = tree.inertia[k] - about_point(m, c)
+        F = m * (carried(k, c) - R[k].T @ gravity)
+        N = about_centre @ wd[k] + np.cross(w[k], about_centre @ w[k])
+        out[k, :3] += F - R[k].T @ force[k]
+        out[k, 3:] += N + np.cross(c, F) - R[k].T @ moment[k]
+        if k > 0:
+            f, g = (R[p].T @ R[k] @ out[k].reshape(2, 3).T).T
+            out[p] += [*f, *(g + np.cross(tree.hinge[k], f))]
+    return out
+
+
 def relative(tree: Tree, s: Motion) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Of all links but the root: R of the recursion, the parent's w and w relative to it, link axes."""
     above = tree.parent[1:]

@@ -52,10 +52,11 @@ class Sensed(Packed):
         return are_finite(self.row)
 
 
-@packed
 @dataclass(frozen=True, slots=True)
 class Measured(Sensed):
     """What happened: the state as a plant has it, and what an inertial unit on the base feels.
+
+    Its row is that of a `Sensed`: what further sensors tell stays beside it.
 
     A simulated plant tells the truth, so its `Measured` may be taken for a `Sensed` as it is; an estimator
     makes a `Sensed` of joints, load, gyroscope and accelerometer alone.

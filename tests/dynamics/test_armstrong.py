@@ -8,7 +8,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from ball_trees import Motion, any_motion, any_tree, mujoco_accelerations, pinocchio_accelerations
+from ball_trees import (
+    Motion,
+    any_motion,
+    any_tree,
+    joint_wrenches,
+    mujoco_accelerations,
+    pinocchio_accelerations,
+)
 from gaitwright.dynamics.armstrong import (
     accelerations,
     fast_accelerations,
@@ -28,7 +35,6 @@ from gaitwright.dynamics.tree_laws import (
     closed_form_accelerations,
     energy,
     hinge_motions,
-    joint_wrenches,
     momentum,
 )
 from gaitwright.errors import WrongUse

@@ -12,15 +12,11 @@ from gaitwright.control.inverse_dynamics import base_acceleration
 from gaitwright.control.moments import moment_of, row
 from gaitwright.control.numerical import NumericalController
 from gaitwright.dynamics.articulated import Accelerations, accelerations, contact_arms
-from gaitwright.dynamics.checks import (
-    bias_forces,
-    closure,
-    mass_matrix,
-    recursion_check,
-    with_feet,
-)
+from gaitwright.dynamics.checks import Check, bias_forces, mass_matrix, recursion_check, worst_of
 from gaitwright.dynamics.closed_chain import closed_chain, imbalance
+from gaitwright.dynamics.newton_euler import joint_accelerations
 from gaitwright.model.kinematics import angles
+from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, rotation
 from gaitwright.signals import MotionTarget, Sensed
 from oracles import bare_world, put, robot_called
@@ -57,6 +53,47 @@ def test_the_closed_form_is_that_of_another_engine(name: str, rng: np.random.Gen
     np.testing.assert_allclose(turn @ M @ turn.T, full, atol=1e-9 * np.abs(full).max())
     h = bias_forces(robot, R.T @ (GRAVITY * UP), s.angular_velocity_b, s.q, s.qd)
     np.testing.assert_allclose(turn @ h, data.qfrc_bias, atol=1e-9 * np.abs(h).max())
+
+
+# --- produced and wanted motion ------------------------------------------------------------------
+def closure(
+    robot: Robot,
+    sensed: Sensed,
+    tau: np.ndarray,
+    forces_w: np.ndarray,
+    wanted: Accelerations,
+    normal_w: np.ndarray = UP,
+) -> Check:
+    """Wanted accelerations against those that torques and foot forces produce, by direct dynamics.
+
+    The forces act where feet of that radius touch ground of unit normal `normal_w`. Differences count as
+    shares of the wanted acceleration of their kind, or of g and g / height where that is larger.
+    """
+    push = np.concatenate([forces_w, np.zeros_like(forces_w)], axis=1)
+    got = accelerations(robot, sensed, tau, contact_arms(robot, sensed, normal_w), push)
+    kinds = ((got.linear_w, wanted.linear_w), (got.angular_b, wanted.angular_b), (got.qdd, wanted.qdd))
+    natural = GRAVITY / robot.height
+    least = (GRAVITY, natural, natural)
+    sizes = [max(float(np.abs(b).max()), floor) for (_, b), floor in zip(kinds, least, strict=True)]
+    difference = np.concatenate([np.ravel(a - b) for a, b in kinds])
+    return worst_of("produced and wanted motion", robot, difference, np.array(sizes))
+
+
+def with_feet(
+    robot: Robot,
+    sensed: Sensed,
+    linear_w: np.ndarray,
+    angular_b: np.ndarray,
+    feet_w: np.ndarray,
+) -> Accelerations:
+    """The motion in which base and foot centres accelerate as given [m/s², rad/s²]: `closure`'s `wanted`.
+
+    Planted feet have zero acceleration. Near a singular pose a leg falls short (`leg.solve_columns`).
+    """
+    R = rotation(sensed.orientation_wb)
+    w, wd, a = tuple(sensed.angular_velocity_b), tuple(angular_b), tuple(R.T @ linear_w)
+    qdd = joint_accelerations(robot.packed, w, wd, a, sensed.q, sensed.qd, feet_w @ R)
+    return Accelerations(linear_w, angular_b, qdd)
 
 
 def standing(name: str, rng: np.random.Generator):

@@ -11,7 +11,7 @@ from scipy.interpolate import BPoly, PchipInterpolator, make_interp_spline
 
 from gaitwright.errors import WrongUse
 from gaitwright.gait.desired_cycle import Manner, desired_cycle
-from gaitwright.gait.leg_cycles.check import CLEAR, JOINT_SPEED, check_cycle, swing_of
+from gaitwright.gait.leg_cycles.check import JOINT_SPEED, LEAST_CLEARANCE, check_cycle, swing_of
 from gaitwright.gait.leg_cycles.files import cycle_of, load_cycle
 from gaitwright.gait.leg_cycles.leg_cycle import (
     NEAREST,
@@ -315,7 +315,7 @@ def test_a_foot_that_drags_is_named_with_its_hind_path() -> None:
     )
     fault = faults(low, dog())["ground"]
     assert (fault.point, fault.hind, fault.leg) == (3, True, "RL")
-    assert fault.measure < fault.limit == CLEAR * dog().height
+    assert fault.measure < fault.limit == LEAST_CLEARANCE * dog().height
     assert fault.sentence.startswith("at point 3 of the hind legs of mine, leg RL: the foot is 0.0012 m over")
 
 

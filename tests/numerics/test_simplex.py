@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import OptimizeResult, linprog
 
-from gaitwright.numerics.piecewise_linear import BOUND, COLUMN, HIGH, LOW, LOWER, UPPER, certificate, program
+from gaitwright.numerics.piecewise_linear import BOUND, COLUMN, HIGH, LOW, LOWER, UPPER, program
 from gaitwright.numerics.simplex import minimise
 from gaitwright.numerics.status import INFEASIBLE, NOT_FINITE, SOLVED, UNBOUNDED
 
@@ -24,6 +24,32 @@ class Answer(NamedTuple):
     code: int
     quantity: int
     steps: int
+
+
+def certificate(t: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[float, float, float]:
+    """What proves an answer, each zero for an exact one: duality gap, worst limit and price broken.
+
+    Gap: the sum of prices at x less the least one that y allows. Limits: how far x is beyond any. Prices:
+    the largest entry of Σ y r, and how far y is beyond a price where there is no limit to carry it.
+    """
+    value = x @ t[COLUMN:]
+    bound = np.minimum(np.maximum(t[BOUND], t[LOWER]), t[UPPER])
+    # What a price is beyond those of the curve rests on a limit.
+    extra = np.maximum(y - t[HIGH], 0.0) + np.minimum(y - t[LOW], 0.0)
+    end = np.where(extra > 0.0, t[UPPER], t[LOWER])
+    limited = np.isfinite(end)
+    carried = extra[limited] @ (end - bound)[limited]
+    gap = price(t, value).sum() - price(t, bound).sum() + y @ bound + carried
+    beyond = max(0.0, (t[LOWER] - value).max(), (value - t[UPPER]).max())
+    wrong = np.abs(extra[~limited]).max(initial=np.abs(t[COLUMN:] @ y).max())
+    return float(gap), float(beyond), float(wrong)
+
+
+def price(t: np.ndarray, value: np.ndarray) -> np.ndarray:
+    """What each quantity costs at a value within its limits."""
+    over = value - t[BOUND]
+    rate = np.where(over > 0.0, t[HIGH], np.where(over < 0.0, t[LOW], 0.0))
+    return rate * over
 
 
 def solved(t: np.ndarray, hints: np.ndarray | None = None) -> Answer:

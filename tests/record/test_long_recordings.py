@@ -10,10 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from gaitwright.cli.recorded_moment import situation_at
 from gaitwright.description.load import load_robot
 from gaitwright.errors import NoRoom
 from gaitwright.ground.scene import load_scene
-from gaitwright.locomotion import Brain, Lap, trip
+from gaitwright.locomotion import Brain, Lap
 from gaitwright.pictures import trip_picture
 from gaitwright.plant.mujoco.simulation import MujocoPlant
 from gaitwright.record import metrics, rows
@@ -21,7 +22,9 @@ from gaitwright.record.channels import SITUATION
 from gaitwright.record.mcap_export import export_mcap
 from gaitwright.record.moment import call_at, route_at, sensed_at
 from gaitwright.record.recording import Recorder, Recording, load
+from gaitwright.session import Session
 from gaitwright.signals import Mission
+from gaitwright.skills.situation import situation
 
 ROBOT = load_robot("go2")
 posix = pytest.mark.skipif(os.name != "posix", reason="limits of a process are POSIX's")
@@ -32,7 +35,7 @@ def laps() -> list[Lap]:
     """Go2 on its way to a goal behind stairs: 1501 ticks."""
     scene = load_scene("stairs:0.1", 0)
     plant = MujocoPlant(ROBOT, scene)
-    return list(trip(Brain.of(ROBOT, scene), plant, Mission(((6.0, 1.0),)), 3.0, vary=False))
+    return list(Session(Brain.of(ROBOT, scene), plant, Mission(((6.0, 1.0),)), 3.0, vary=False))
 
 
 def recorded(laps: list[Lap]) -> Recording:
@@ -165,6 +168,13 @@ def test_a_recording_keeps_the_situation(laps: list[Lap], filed: Recording):
         assert call_at(filed, tick).skill == lap.call.skill
 
 
+def test_the_situation_of_a_recording_is_the_one_that_was_met(laps: list[Lap], filed: Recording):
+    for tick in (1, 400, 1000, len(laps) - 1):
+        lap, before = laps[tick], laps[tick - 1].call
+        met = situation(ROBOT, lap.route, lap.sensed, before)
+        assert situation_at(filed, tick) == dict(met.items())
+
+
 def test_nobody_looked_is_recorded_as_such(laps: list[Lap]):
     blind = replace(laps[0], route=replace(laps[0].route, ahead=None, path=()))
     route = route_at(recorded([blind]), 0)
@@ -183,6 +193,7 @@ def test_arrays_of_other_types_are_converted(laps: list[Lap], short: Recording):
 
 
 # --- a full disk -----------------------------------------------------------------------------------
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that takes nothing")
 def test_a_full_disk_ends_a_trip_and_loses_nothing(laps: list[Lap], monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(rows, "IN_MEMORY", 1)
     recorder = Recorder(ROBOT, "stairs", 0, 0.002)
@@ -226,3 +237,54 @@ def test_a_walk_whose_file_may_not_grow_is_kept(tmp_path: Path):
     )
     assert child.stdout.strip() == f"4096 no room for the recording in {tmp_path}: File too large 0", child
     assert not any(tmp_path.iterdir())
+
+
+# --- memory ----------------------------------------------------------------------------------------
+LONG = """
+import sys
+from dataclasses import replace
+from itertools import cycle, islice
+from pathlib import Path
+from gaitwright import Brain, Mission, load_robot, load_scene
+from gaitwright.session import Session
+from gaitwright.pictures import trip_picture
+from gaitwright.plant.mujoco.simulation import MujocoPlant
+from gaitwright.record.recording import Recorder, load
+from gaitwright.skills.chooser import fixed_skill
+
+def peak():
+    status = Path("/proc/self/status").read_text()
+    return int(status.split("VmHWM:")[1].split()[0]) * 1024
+
+def made_of(laps, ticks, name):
+    recorder = Recorder(robot, "flat", 0, 0.002)
+    for tick, lap in enumerate(islice(cycle(laps), ticks)):
+        recorder.add(replace(lap, sensed=replace(lap.sensed, time=0.002 * tick)))
+    recording = recorder.finish()
+    del recorder
+    report = recording.report()
+    again = load(recording.save(name))
+    assert again.report() == report and len(again) == ticks
+    del again
+    trip_picture(recording, scene, name + ".png")
+    return recording
+
+robot, scene = load_robot("go2"), load_scene("flat", 0)
+brain = Brain.of(robot, scene, fixed_skill(robot, "trot", 0.4, 0.0, 0.3, "numerical"))
+laps = list(Session(brain, MujocoPlant(robot, scene), Mission(()), 1.0))
+made_of(laps, 30_000, "short.npz")
+before = peak()
+made_of(laps, int(sys.argv[1]), "long.npz")
+print(peak() - before)
+"""
+
+
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="only Linux tells a process its peak")
+def test_a_long_recording_takes_little_more_memory_than_a_short_one(tmp_path: Path):
+    pytest.importorskip("matplotlib")
+    ticks = 150_000
+    child = subprocess.run(
+        [sys.executable, "-c", LONG, str(ticks)], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert child.returncode == 0, child.stderr
+    assert int(child.stdout) < 784 * ticks / 3, "its rows alone are 784 bytes a tick"

@@ -91,7 +91,7 @@ def test_mcap_reads_back_as_ros_2_messages(recording: Recording, tmp_path: Path)
     }
     assert changes == [{"time": 0.0, "skill": "walk", "driver": "numerical"}]
     assert scans[0]["time"] == 0.0 and scans[0]["slope"] == recording["scan_slope"][0]
-    assert 5 < len(scans) < 15  # ten looks a second, each from another place
+    assert len(scans) == 1  # with nowhere to go, nobody looks again
 
     times, states = zip(*decoded, strict=True)
     np.testing.assert_allclose(np.diff(times), 1e7, atol=1)

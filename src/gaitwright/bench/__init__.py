@@ -7,7 +7,7 @@ something has to be known about how they are measured.
 from gaitwright.errors import unknown
 
 GROUPS = {
-    "spine": ("walks", "ground", "pushes", "lp", "robots", "missions", "tick", "speed"),
+    "spine": ("walks", "ground", "pushes", "lp", "robots", "missions", "tick", "speed", "memory"),
     "skills": ("skills", "transitions", "terrain", "anyrobot", "cost"),
     "mechanics": ("dynamics", "sharing", "streaming", "armstrong"),
     "rules": ("rules", "school", "kills"),

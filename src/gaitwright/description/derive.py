@@ -24,7 +24,7 @@ SHORTEST_LINK = 1e-6
 """A thigh or shank must be longer than this [m]."""
 
 
-class Leg(NamedTuple):
+class LegBody(NamedTuple):
     """One leg as numbers; the fields are those of `Robot` for one leg, less those of its shape."""
 
     mass: np.ndarray
@@ -80,7 +80,7 @@ def origin_of(legs: Legs) -> np.ndarray:
 
 
 # --- one leg ---------------------------------------------------------------------------------------
-def derive_leg(m: mujoco.MjModel, legs: Legs, i: int) -> tuple[LegShape, Leg]:
+def derive_leg(m: mujoco.MjModel, legs: Legs, i: int) -> tuple[LegShape, LegBody]:
     """All numbers of leg `i`."""
     d, joints, name = legs.data, legs.joints[i], legs.names[i]
     frame, sign = leg_frame(d.xaxis[joints], name)
@@ -108,7 +108,7 @@ def derive_leg(m: mujoco.MjModel, legs: Legs, i: int) -> tuple[LegShape, Leg]:
     place, branch = posture(shape, q_home, name)
     links = [merged(m, d, legs.owner == j, frame, anchor) for j, anchor in zip(joints, anchors, strict=True)]
     dofs = m.jnt_dofadr[joints]
-    return shape, Leg(
+    return shape, LegBody(
         mass=np.array([link[0] for link in links]),
         com=np.array([link[1] for link in links]),
         inertia=np.array([link[2] for link in links]),

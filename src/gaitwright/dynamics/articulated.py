@@ -53,7 +53,7 @@ def rigid(mass, com, inertia):
 
 
 @kernel
-def joined(body, load, beyond, load_beyond):
+def join_bodies(body, load, beyond, load_beyond):
     """Two that move as one, about the same point."""
     (J, H, M), (f, g) = body, load
     (Jb, Hb, Mb), (fb, gb) = beyond, load_beyond
@@ -61,7 +61,7 @@ def joined(body, load, beyond, load_beyond):
 
 
 @kernel
-def moved(body, load, r):
+def shift_body(body, load, r):
     """The same about a point from which the present one lies at `r`."""
     (J, H, M), (f, g) = body, load
     Hr = plus(H, transpose(crossed(r, M)))
@@ -102,16 +102,16 @@ def inward(leg, turns, bias, tau, ground):
     load = (sub(f, ground[0]), sub(g, ground[1]))
     (J, H, M), (f, g), gave3 = given_way(body, load, 1, leg.sign * tau[2], leg.armature[2])
     beyond = (seen_past_y(c3, s3, J), seen_past_y(c3, s3, H), seen_past_y(c3, s3, M))
-    beyond, load = moved(beyond, (turn_y(c3, s3, f), turn_y(c3, s3, g)), leg.offset[1])
+    beyond, load = shift_body(beyond, (turn_y(c3, s3, f), turn_y(c3, s3, g)), leg.offset[1])
 
     body, own = link(leg, 1, bias[1])
-    body, load = joined(body, own, beyond, load)
+    body, load = join_bodies(body, own, beyond, load)
     (J, H, M), (f, g), gave2 = given_way(body, load, 1, tau[1], leg.armature[1])
     beyond = (seen_past_y(c2, s2, J), seen_past_y(c2, s2, H), seen_past_y(c2, s2, M))
-    beyond, load = moved(beyond, (turn_y(c2, s2, f), turn_y(c2, s2, g)), leg.offset[0])
+    beyond, load = shift_body(beyond, (turn_y(c2, s2, f), turn_y(c2, s2, g)), leg.offset[0])
 
     body, own = link(leg, 0, bias[0])
-    body, load = joined(body, own, beyond, load)
+    body, load = join_bodies(body, own, beyond, load)
     (J, H, M), (f, g), gave1 = given_way(body, load, 0, tau[0], leg.armature[0])
     body = (seen_past_x(c1, s1, J), seen_past_x(c1, s1, H), seen_past_x(c1, s1, M))
     return body, (turn_x(c1, s1, f), turn_x(c1, s1, g)), (gave1, gave2, gave3)
@@ -123,7 +123,7 @@ def felt_by_base(leg, body, load):
     J, H, M = body
     frame = leg.frame
     body = (seen_in_base(frame, J), seen_in_base(frame, H), seen_in_base(frame, M))
-    return moved(body, (apply(frame, load[0]), apply(frame, load[1])), leg.hip)
+    return shift_body(body, (apply(frame, load[0]), apply(frame, load[1])), leg.hip)
 
 
 @kernel
@@ -190,7 +190,7 @@ def direct_dynamics(packed, w, q, qd, tau, arm, push, wrench):
         ground = foot_load(leg, turns, vec(arm[k]), vec_at(push[k], 0), vec_at(push[k], 3))
         limb, limb_load, gives = inward(leg, turns, bias, vec(tau[k]), ground)
         limb, limb_load = felt_by_base(leg, limb, limb_load)
-        body, load = joined(body, load, limb, limb_load)
+        body, load = join_bodies(body, load, limb, limb_load)
         for i in range(3):
             write(gave[k], 7 * i, gives[i][0])
             write(gave[k], 7 * i + 3, gives[i][1])

@@ -1,4 +1,4 @@
-"""Checks that run: the recursion against a closed form, and produced motion against wanted (row N8).
+"""A check that runs: the recursion of inverse dynamics against a closed form (row N8).
 
 The closed form has nothing in common with the recursion but the robot's numbers: positions and axes of all
 hinges by forward kinematics, then sums over bodies,
@@ -17,8 +17,8 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.dynamics.articulated import Accelerations, accelerations, contact_arms
-from gaitwright.dynamics.newton_euler import dynamics_of, joint_accelerations, state_numbers
+from gaitwright.dynamics.articulated import Accelerations
+from gaitwright.dynamics.newton_euler import dynamics_of, state_numbers
 from gaitwright.dynamics.tree_laws import crossing
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, about_axis, rotation
@@ -127,7 +127,7 @@ def bias_forces(
     return h
 
 
-# --- checks --------------------------------------------------------------------------------------
+# --- the check ------------------------------------------------------------------------------------
 def recursion_check(robot: Robot, sensed: Sensed, wanted: Accelerations) -> Check:
     """Inverse dynamics by recursion against M q̈ + h by sums, for one motion."""
     R = rotation(sensed.orientation_wb)
@@ -139,46 +139,6 @@ def recursion_check(robot: Robot, sensed: Sensed, wanted: Accelerations) -> Chec
     summed = mass_matrix(robot, q) @ pull + bias_forces(robot, up, w, q, qd)
     sizes = [np.abs(part).max() for part in (summed[:3], summed[3:6], summed[6:])]
     return worst_of("recursion and closed form", robot, recursive - summed, np.array(sizes))
-
-
-def closure(
-    robot: Robot,
-    sensed: Sensed,
-    tau: Float[np.ndarray, "legs 3"],
-    forces_w: Float[np.ndarray, "legs 3"],
-    wanted: Accelerations,
-    normal_w: Float[np.ndarray, "3"] = UP,
-) -> Check:
-    """Wanted accelerations against those that torques and foot forces produce, by direct dynamics.
-
-    The forces act where feet of that radius touch ground of unit normal `normal_w`. Differences count as
-    shares of the wanted acceleration of their kind, or of g and g / height where that is larger.
-    """
-    push = np.concatenate([forces_w, np.zeros_like(forces_w)], axis=1)
-    got = accelerations(robot, sensed, tau, contact_arms(robot, sensed, normal_w), push)
-    kinds = ((got.linear_w, wanted.linear_w), (got.angular_b, wanted.angular_b), (got.qdd, wanted.qdd))
-    natural = GRAVITY / robot.height
-    least = (GRAVITY, natural, natural)
-    sizes = [max(float(np.abs(b).max()), floor) for (_, b), floor in zip(kinds, least, strict=True)]
-    difference = np.concatenate([np.ravel(a - b) for a, b in kinds])
-    return worst_of("produced and wanted motion", robot, difference, np.array(sizes))
-
-
-def with_feet(
-    robot: Robot,
-    sensed: Sensed,
-    linear_w: Float[np.ndarray, "3"],
-    angular_b: Float[np.ndarray, "3"],
-    feet_w: Float[np.ndarray, "legs 3"],
-) -> Accelerations:
-    """The motion in which base and foot centres accelerate as given [m/s², rad/s²]: `closure`'s `wanted`.
-
-    Planted feet have zero acceleration. Near a singular pose a leg falls short (`solve_columns`).
-    """
-    R = rotation(sensed.orientation_wb)
-    w, wd, a = tuple(sensed.angular_velocity_b), tuple(angular_b), tuple(R.T @ linear_w)
-    qdd = joint_accelerations(robot.packed, w, wd, a, sensed.q, sensed.qd, feet_w @ R)
-    return Accelerations(linear_w, angular_b, qdd)
 
 
 def worst_of(

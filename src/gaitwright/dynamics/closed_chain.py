@@ -38,7 +38,7 @@ from gaitwright.numerics.matrices import apply, apply_t, write
 from gaitwright.signals import Sensed
 
 UP = np.array([0.0, 0.0, 1.0])
-Method = Literal["jacobians", "probing"]
+ChainMethod = Literal["jacobians", "probing"]
 
 
 class ClosedChain(NamedTuple):
@@ -152,7 +152,7 @@ def closed_chain(
     wanted: Accelerations,
     stance: Bool[np.ndarray, "legs"],
     normal_w: Float[np.ndarray, "3"],
-    method: Method = "jacobians",
+    method: ChainMethod = "jacobians",
 ) -> ClosedChain:
     """The maps of a robot that in a sensed state shall accelerate as wanted, on the feet in `stance`.
 

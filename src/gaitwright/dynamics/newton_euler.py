@@ -17,12 +17,12 @@ from jaxtyping import Float
 from gaitwright.model.leg import (
     base_at,
     bias_motion,
-    carried,
     foot_acceleration,
     foot_and_columns,
     leg_at,
     leg_of,
     leg_turns,
+    point_acceleration,
     solve_columns,
 )
 from gaitwright.numerics.compiled import kernel
@@ -37,7 +37,7 @@ NO_LOAD = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 @kernel
 def motion_at_hip(leg, w, wd, a):
     """Motion of the base at a leg's first hinge, turned into the leg frame."""
-    at_hip = carried(a, w, wd, leg.hip)
+    at_hip = point_acceleration(a, w, wd, leg.hip)
     return apply_t(leg.frame, w), apply_t(leg.frame, wd), apply_t(leg.frame, at_hip)
 
 
@@ -71,7 +71,7 @@ def links_motion(leg, turns, w, wd, a, qd, qdd):
 def link_load(motion, mass, com, inertia):
     """Force and moment about its hinge that the motion of one link asks for (eq. 4-13 … 4-15)."""
     w, wd, a = motion
-    force = scale(mass, carried(a, w, wd, com))
+    force = scale(mass, point_acceleration(a, w, wd, com))
     moment = add(apply(inertia, wd), cross(w, apply(inertia, w)))
     return force, add(moment, cross(com, force))
 

@@ -1,67 +1,19 @@
 """What must hold of a moving tree of ball-jointed links, each by another way than Armstrong's (row N8).
 
-Inverse dynamics by Newton and Euler about the centres of mass (equations.md §4), energy and momentum,
-and the closed form: all equations at once, solved by elimination. Arguments as in
+Energy and momentum, and the closed form: all equations at once, solved by elimination. Arguments as in
 `armstrong.accelerations`.
 """
 
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.dynamics.newton_euler import carried
 from gaitwright.dynamics.tree import Tree, about_point
 from gaitwright.numerics.compiled import kernel
-from gaitwright.numerics.geometry import add, cross, dot, scale, sub, vec
-from gaitwright.numerics.matrices import add_row, apply, apply_t, mat, put_row, row, skew
+from gaitwright.numerics.geometry import add, cross, dot, scale, vec
+from gaitwright.numerics.matrices import apply, mat, put_row, row, skew
 
 
-# --- inverse dynamics ----------------------------------------------------------------------------
-@kernel
-def joint_wrenches(tree, R, w, a0, wd, force, moment, gravity):
-    """Wrenches `(links, 6)` that a motion asks of the joints: force [N], then torque [N·m].
-
-    `a0 (3,)`: acceleration of the root's origin, world axes; `wd (links, 3)`: angular accelerations,
-    link axes. Row k: from the parent on link k at its hinge, link axes, -f and -g of the thesis (eq.
-    4-16, 4-17). Row 0: what would have to hold the root; nothing where the tree floats.
-    """
-    n = tree.mass.size
-    a, out = np.empty((n, 3)), np.zeros((n, 6))
-    f, g = out[:, :3], out[:, 3:]
-    put_row(a, 0, apply_t(mat(R, 0), vec(a0)))
-    for r in range(1, n):
-        p = tree.parent[r]
-        a_l = carried(row(a, p), row(w, p), row(wd, p), row(tree.hinge, r))
-        put_row(a, r, apply_t(mat(R, r), apply(mat(R, p), a_l)))  # (4-12)
-    for r in range(n - 1, -1, -1):
-        asked = link_wrench(tree, r, row(a, r), row(w, r), row(wd, r))
-        given = outer_wrench(tree, r, mat(R, r), row(force, r), row(moment, r), gravity)
-        add_row(f, r, sub(asked[0], given[0]))
-        add_row(g, r, sub(asked[1], given[1]))
-        if r > 0:
-            p = tree.parent[r]
-            f_s = apply_t(mat(R, p), apply(mat(R, r), row(f, r)))
-            g_s = apply_t(mat(R, p), apply(mat(R, r), row(g, r)))
-            add_row(f, p, f_s)
-            add_row(g, p, add(g_s, cross(row(tree.hinge, r), f_s)))
-    return out
-
-
-@kernel
-def link_wrench(tree, r, a, w, wd):
-    """Force and moment about the hinge that the motion of link `r` takes (eq. 4-13 … 4-15)."""
-    m, c = tree.mass[r], row(tree.com, r)
-    F = scale(m, carried(a, w, wd, c))
-    N = add(about_centre(tree, r, wd), cross(w, about_centre(tree, r, w)))
-    return F, add(N, cross(c, F))
-
-
-@kernel
-def outer_wrench(tree, r, R, force, moment, gravity):
-    """Force and moment about the hinge of link `r` from outside and from its weight, link axes."""
-    weight = scale(tree.mass[r], apply_t(R, gravity))
-    return add(apply_t(R, force), weight), add(apply_t(R, moment), cross(row(tree.com, r), weight))
-
-
+# --- energy and momentum -------------------------------------------------------------------------
 @kernel
 def about_centre(tree, r, w):
     """Jc w, with Jc = J + m ~c ~c the inertia of link `r` about its centre of mass."""
@@ -69,7 +21,6 @@ def about_centre(tree, r, w):
     return add(apply(mat(tree.inertia, r), w), scale(tree.mass[r], cross(c, cross(c, w))))
 
 
-# --- energy and momentum -------------------------------------------------------------------------
 @kernel
 def hinge_motions(tree, R, x, v, w):
     """Positions and velocities `(links, 3)` of the hinges, world; `x`, `v` are those of the root's origin."""

@@ -143,7 +143,7 @@ def combined(rates, columns):
 
 
 @kernel
-def carried(a, w, wd, r):
+def point_acceleration(a, w, wd, r):
     """Acceleration of a point at `r` on a body whose origin accelerates with `a` (eq. 4-12)."""
     return add(a, add(cross(wd, r), cross(w, cross(w, r))))
 
@@ -163,9 +163,9 @@ def bias_motion(turns, qd, offset, sign, w, wd, a):
     (c1, s1), (c2, s2), (c3, s3) = turns
     w1, wd1 = hinge_motion(turn_x(c1, -s1, w), turn_x(c1, -s1, wd), (qd[0], 0.0, 0.0))
     a1 = turn_x(c1, -s1, a)
-    a2 = turn_y(c2, -s2, carried(a1, w1, wd1, offset[0]))
+    a2 = turn_y(c2, -s2, point_acceleration(a1, w1, wd1, offset[0]))
     w2, wd2 = hinge_motion(turn_y(c2, -s2, w1), turn_y(c2, -s2, wd1), (0.0, qd[1], 0.0))
-    a3 = turn_y(c3, -s3, carried(a2, w2, wd2, offset[1]))
+    a3 = turn_y(c3, -s3, point_acceleration(a2, w2, wd2, offset[1]))
     w3, wd3 = hinge_motion(turn_y(c3, -s3, w2), turn_y(c3, -s3, wd2), (0.0, sign * qd[2], 0.0))
     return (w1, wd1, a1), (w2, wd2, a2), (w3, wd3, a3)
 
@@ -174,7 +174,7 @@ def bias_motion(turns, qd, offset, sign, w, wd, a):
 def foot_acceleration(turns, motion, offset):
     """Acceleration of the foot centre, leg frame, from the motion of the links."""
     w, wd, a = motion[2]
-    return to_leg_frame(turns, carried(a, w, wd, offset[2]))
+    return to_leg_frame(turns, point_acceleration(a, w, wd, offset[2]))
 
 
 # --- and back --------------------------------------------------------------------------------------

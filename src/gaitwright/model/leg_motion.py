@@ -24,9 +24,9 @@ from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import add, sub, times, times_t, vec
 from gaitwright.numerics.matrices import rows
 
-STILL = np.zeros(3)
+NO_MOTION = np.zeros(3)
 """No motion."""
-STILL.flags.writeable = False
+NO_MOTION.flags.writeable = False
 AT_REST = (0.0, 0.0, 0.0)
 
 
@@ -171,9 +171,9 @@ class BaseMotion(NamedTuple):
     """Velocity of the base origin [m/s]."""
     angular_velocity_b: Float[np.ndarray, "3"]
     """[rad/s]."""
-    acceleration_w: Float[np.ndarray, "3"] = STILL
+    acceleration_w: Float[np.ndarray, "3"] = NO_MOTION
     """Acceleration of the base origin [m/s²]."""
-    angular_acceleration_b: Float[np.ndarray, "3"] = STILL
+    angular_acceleration_b: Float[np.ndarray, "3"] = NO_MOTION
     """[rad/s²]."""
 
 

@@ -14,7 +14,7 @@ from gaitwright.errors import WrongUse
 from gaitwright.model.nominal_pose import LegShape, best_branch, branch_angles, nominal_foot
 from gaitwright.model.robot import Robot
 
-MOST = 0.5
+MOST_CHANGE = 0.5
 """Beyond this share a thigh and a shank may no longer make a leg that stands."""
 
 
@@ -26,9 +26,9 @@ def perturbed(robot: Robot, seed: int, most: float = 0.2) -> Robot:
     """
     if seed < 0:
         raise WrongUse(f"seed {seed} is asked; seeds are 0 or greater")
-    if not 0.0 <= most <= MOST:
+    if not 0.0 <= most <= MOST_CHANGE:
         raise WrongUse(
-            f"a robot that differs by up to {most:g} of each number is asked; from 0 to {MOST:g} is"
+            f"a robot that differs by up to {most:g} of each number is asked; from 0 to {MOST_CHANGE:g} is"
         )
     random = np.random.default_rng(seed)
 

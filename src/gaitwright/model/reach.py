@@ -73,18 +73,18 @@ def reach_of(
     joint = int(np.argmax(over))
     if code == REACHED and over[joint] > LIMIT_TOLERANCE:
         low, high, angle = robot.q_min[i, joint], robot.q_max[i, joint], float(q[joint])
-        return told(leg, BEYOND_LIMIT, angle, float(low if angle < low else high), HINGES[joint])
+        return in_words(leg, BEYOND_LIMIT, angle, float(low if angle < low else high), HINGES[joint])
     x, y, z = to_leg(robot.leg_frame[i], robot.hip[i], place)
     aside = float(offset[:, 1].sum())
     if code == TOO_NEAR_AXIS:
-        return told(leg, code, math.hypot(y, z), abs(aside))
+        return in_words(leg, code, math.hypot(y, z), abs(aside))
     down = robot.branch[i, 0] * math.sqrt(max(0.0, y * y + z * z - aside * aside))
     distance = math.hypot(x - offset[0, 0], down - offset[0, 2])
     thigh, shank = np.hypot(offset[1:, 0], offset[1:, 2])
-    return told(leg, code, distance, abs(thigh - shank) if code == TOO_NEAR_HIP else thigh + shank)
+    return in_words(leg, code, distance, abs(thigh - shank) if code == TOO_NEAR_HIP else thigh + shank)
 
 
-def told(leg: str, code: int, measure: float, limit: float, joint: str = "") -> Reach:
+def in_words(leg: str, code: int, measure: float, limit: float, joint: str = "") -> Reach:
     """A `Reach` with its sentence."""
     sentence = SENTENCES[code].format(leg=leg, measure=measure, limit=limit, joint=joint)
     return Reach(leg, code, measure, limit, sentence)

@@ -1,4 +1,4 @@
-"""Programs of quantities with prices: what `simplex.minimise` solves, and what proves its answers.
+"""Programs of quantities with prices: what `simplex.minimise` solves.
 
 A program is `n` unknowns x and `k` rows r. Every unknown, and every r · x, is a quantity with a convex price:
 it must stay in [lower, upper], and costs `low` per unit below `bound` and `high` per unit above it, where
@@ -8,8 +8,6 @@ curves, so none needs an unknown of its own. Wanted is the least sum of prices.
 A program is a table with a column per quantity, unknowns first. Its rows are one array, since a compiled
 function is called faster with one array than with twenty.
 """
-
-import math
 
 import numpy as np
 from jaxtyping import Float
@@ -81,31 +79,3 @@ def prepare(t):
         if not (lower <= bound <= upper and t[LOW, q] <= t[HIGH, q]):
             bad = q
     return bad
-
-
-@kernel
-def certificate(t, x, y):
-    """What proves an answer, each zero for an exact one: duality gap, worst limit and price broken.
-
-    Gap: the sum of prices at x less the least one that y allows. Limits: how far x is beyond any. Prices:
-    the largest entry of Σ y r, and how far y is beyond a price where there is no limit to carry it.
-    """
-    n = x.size
-    gap = beyond = wrong = 0.0
-    total = np.zeros(n)
-    for q in range(t.shape[1]):
-        v = 0.0
-        for j in range(n):
-            v += t[COLUMN + j, q] * x[j]
-            total[j] += t[COLUMN + j, q] * y[q]
-        bound = min(max(t[BOUND, q], t[LOWER, q]), t[UPPER, q])
-        # What a price is beyond those of the curve rests on a limit.
-        extra = max(y[q] - t[HIGH, q], 0.0) + min(y[q] - t[LOW, q], 0.0)
-        end = t[UPPER, q] if extra > 0.0 else t[LOWER, q]
-        if math.isfinite(end):
-            gap += extra * (end - bound)
-        else:
-            wrong = max(wrong, abs(extra))
-        gap += price_of(t, q, v) - price_of(t, q, bound) + y[q] * bound
-        beyond = max(beyond, t[LOWER, q] - v, v - t[UPPER, q])
-    return gap, beyond, max(wrong, np.abs(total).max())

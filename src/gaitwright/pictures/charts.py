@@ -9,6 +9,7 @@ from gaitwright.pictures.style import CYCLES, DRIVERS, INK, JOINTS, LEFT, MAP, S
 from gaitwright.pictures.thin import column, shown, spread, step
 from gaitwright.record.metrics import attitude, stretches
 from gaitwright.record.recording import Recording
+from gaitwright.record.rows import Lazy, Series, filled
 
 
 def draw_speed(ax: Axes, r: Recording) -> None:
@@ -51,9 +52,11 @@ def draw_drivers(ax: Axes, r: Recording) -> None:
 
 
 def draw_attitude(ax: Axes, r: Recording) -> None:
-    angles = attitude(r.channel("orientation_wb"))
-    for angle, name, colour in zip(angles, ("roll", "pitch"), ("#1971c2", "#e8590c"), strict=True):
-        ax.plot(*spread(r.channel("time"), np.degrees(angle)), color=colour, linewidth=0.9, label=name)
+    orientation = r.channel("orientation_wb")
+    angles = Lazy(len(r), lambda ticks: np.degrees(attitude(orientation[ticks])).T)
+    for number, (name, colour) in enumerate((("roll", "#1971c2"), ("pitch", "#e8590c"))):
+        line = spread(r.channel("time"), column(angles, number))
+        ax.plot(*line, color=colour, linewidth=0.9, label=name)
     over_time(ax, r, "attitude [°]")
 
 
@@ -65,10 +68,11 @@ def over_time(ax: Axes, r: Recording, title: str) -> None:
     dress(ax, title)
 
 
-def smooth(values: np.ndarray, r: Recording) -> np.ndarray:
+def smooth(values: Series, r: Recording) -> np.ndarray:
     """Mean over the last cycle of the gait, at the ticks that are drawn."""
     ticks = max(1, min(len(values), round(float(np.median(r["period"])) / r.dt)))
-    total = np.concatenate([[0.0], np.cumsum(values)])
+    total = np.zeros(len(values) + 1)
+    np.cumsum(filled(values), out=total[1:])
     last = np.arange(0, len(values), step(len(values))) + 1
     first = np.maximum(last - ticks, 0)
     return (total[last] - total[first]) / (last - first)

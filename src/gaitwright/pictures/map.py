@@ -19,6 +19,11 @@ from gaitwright.record.metrics import heading_over_time, stretches, touchdowns
 from gaitwright.record.recording import Recording
 from gaitwright.record.rows import parts
 
+BODIES = 300
+"""Outlines of the body at most."""
+AT_ONCE = 8192
+"""Ticks that are searched for footfalls at once."""
+
 
 def draw_map(ax: Axes, r: Recording, scene: Scene) -> None:
     """The ground from above, what stands on it, footprints, and the way in the colours of the skills."""
@@ -98,12 +103,13 @@ def draw_footprints(ax: Axes, r: Recording) -> None:
 
 
 def draw_bodies(ax: Axes, r: Recording, way: np.ndarray) -> None:
-    """The outline of the body at even distances, for its size and heading."""
+    """The outline of the body at even distances, for its size and heading; of a long way some of them."""
     (cx, cy, _), (hx, hy, _) = r.robot.trunk
     corners = np.array([[cx + sx * hx, cy + sy * hy] for sx, sy in ((1, 1), (-1, 1), (-1, -1), (1, -1))])
     yaw = heading_over_time(shown(r.channel("orientation_wb")))
     gone = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(way, axis=0), axis=1))])
-    for tick in np.searchsorted(gone, np.arange(0.0, gone[-1], 2.5 * r.robot.body_length)):
+    apart = max(2.5 * r.robot.body_length, gone[-1] / BODIES)
+    for tick in np.searchsorted(gone, np.arange(0.0, gone[-1], apart)):
         c, s = np.cos(yaw[tick]), np.sin(yaw[tick])
         outline = corners @ np.array([[c, s], [-s, c]]) + way[tick]
         ax.add_patch(Polygon(outline, facecolor=INK, edgecolor=INK, alpha=0.2, linewidth=0, zorder=3.5))
@@ -112,7 +118,7 @@ def draw_bodies(ax: Axes, r: Recording, way: np.ndarray) -> None:
 def footprints(r: Recording) -> Iterator[tuple[float, float]]:
     """Where the feet came down, as x, y [m]."""
     channels = [r.channel(name) for name in ("stance", "q", "position_w", "orientation_wb")]
-    for part in parts(len(r)):
+    for part in parts(len(r), AT_ONCE):
         before = max(0, part.start - 1)
         stance, q, position, orientation = (channel[before : part.stop] for channel in channels)
         for tick, leg in touchdowns(stance > 0.5):

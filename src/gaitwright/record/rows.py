@@ -18,7 +18,7 @@ from gaitwright.errors import NoRoom
 
 BLOCK = 1024
 """Rows that go to the file at once."""
-IN_MEMORY = 24_000_000
+IN_MEMORY = 16_000_000
 """What is newest stays in memory [bytes]."""
 PART = 65536
 """Ticks that are worked on at once."""

@@ -51,8 +51,8 @@ def reproduce(say: Say) -> Reproduction:
     """The table with our torques beside it."""
     t, p = load_robot("thesis-table"), load_robot("thesis")
     say("the linear program on four feet")
-    literal, program = solved(t, LITERAL), solved(t, EXACT)
-    ours = Ours(even(t), shown(literal), shown(program), even(p), shown(solved(p, EXACT)))
+    literal, program = solve_cycle(t, LITERAL), solve_cycle(t, EXACT)
+    ours = Ours(even(t), shown(literal), shown(program), even(p), shown(solve_cycle(p, EXACT)))
     claims = [
         weight(t, ours),
         level(t, ours),
@@ -73,7 +73,7 @@ def reproduce(say: Say) -> Reproduction:
     )
 
 
-def solved(robot: Robot, settings) -> CycleTorques:
+def solve_cycle(robot: Robot, settings) -> CycleTorques:
     """The program's answer, every sample from nothing."""
     return cycle_torques(robot, on_all_fours(robot, STEPS), settings, laps=1, warm=False)
 

@@ -9,12 +9,10 @@ from gaitwright.skills.following import braked, heading_error, turn_rate, wished
 from gaitwright.skills.library import (
     Skill,
     check_speed,
-    fastest,
+    cruising,
     find_skill,
     gait_of,
     meant,
-    skill_names,
-    speed_scale,
 )
 from gaitwright.stages import Map, Now
 
@@ -49,19 +47,16 @@ class DefaultChooser:
         return self.call(skill.name, route, forward=slowed * math.cos(error), turn=turn, because=because)
 
     def gait_for(self, speed: float) -> Skill:
-        """The calmest skill for a speed [m/s]: walk, trot or run.
+        """The calmest skill for a speed [m/s], of those that a robot cruises with.
 
         Raises `WrongUse` where even the fastest of them cannot go so fast.
         """
-        names = [name for name in ("walk", "trot", "run") if name in skill_names(self.robot.n)]
-        walk, *faster = (find_skill(name, self.robot) for name in names)
-        if speed <= walk.speed * speed_scale(self.robot):
-            return walk
-        for skill in faster:
-            if speed <= fastest(skill, self.robot):
+        rows = cruising(self.robot)
+        for most, skill in rows:
+            if speed <= most:
                 return skill
-        check_speed(faster[-1], self.robot, speed)
-        return faster[-1]
+        check_speed(rows[-1][1], self.robot, speed)
+        return rows[-1][1]
 
     def call(
         self, name: str, route: Route, forward: float = 0.0, turn: float = 0.0, because: str = ""

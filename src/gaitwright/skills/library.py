@@ -30,6 +30,8 @@ class Skill:
     """Where it goes: unit vector, forward and left."""
     turn: float = 0.0
     """The yaw rate it is meant for [rad/s]."""
+    cruise: float = 0.0
+    """The default chooser goes forward with it up to this speed [m/s]; 0: never of itself."""
 
 
 PATTERNS: dict[str, tuple[float, ...]] = {
@@ -50,16 +52,18 @@ LIBRARY: dict[str, Skill] = {
     for skill in (
         Skill("stand", 0.40, 1.00, "together", 0.0, 0.0, "all feet on the ground"),
         Skill("stop", 0.40, 1.00, "together", 0.0, 0.0, "slows down in the gait it is in, then stands"),
-        Skill("walk", 0.60, 0.75, "walk", 0.25, 0.45, "one foot at a time; six-legged: a ripple"),
+        Skill(
+            "walk", 0.60, 0.75, "walk", 0.25, 0.45, "one foot at a time; six-legged: a ripple", cruise=0.25
+        ),
         Skill("walk-backward", 0.60, 0.75, "walk", 0.20, 0.35, "a walk to the rear", (-1.0, 0.0)),
         Skill("walk-sideways", 0.60, 0.75, "walk", 0.12, 0.25, "a walk to the left", (0.0, 1.0)),
         Skill("climb", 0.60, 0.75, "walk", 0.20, 0.35, "a walk up steps and slopes, feet lifted high"),
         Skill("descend", 0.60, 0.75, "walk", 0.20, 0.35, "a walk down steps and slopes"),
-        Skill("trot", 0.40, 0.60, "diagonal", 0.40, 1.00, "diagonal pairs; six-legged: tripods"),
+        Skill("trot", 0.40, 0.60, "diagonal", 0.40, 1.00, "diagonal pairs; six-legged: tripods", cruise=1.0),
         Skill("turn-left", 0.40, 0.60, "diagonal", 0.30, 0.60, "an arc to the left, in trot", turn=0.6),
         Skill("turn-right", 0.40, 0.60, "diagonal", 0.30, 0.60, "an arc to the right, in trot", turn=-0.6),
         Skill("turn-in-place", 0.40, 0.60, "diagonal", 0.0, 0.40, "turning on the spot, in trot", turn=0.8),
-        Skill("run", 0.36, 0.45, "diagonal", 1.50, 2.50, "a flying trot"),
+        Skill("run", 0.36, 0.45, "diagonal", 1.50, 2.50, "a flying trot", cruise=2.5),
         Skill("pace", 0.34, 0.60, "lateral", 0.60, 1.30, "left and right pairs"),
         Skill("rack", 0.40, 0.60, "single-foot", 0.40, 0.90, "evenly, foot by foot"),
         Skill("pronk", 0.40, 0.55, "together", 0.60, 1.30, "all feet together"),
@@ -134,6 +138,13 @@ def meant(skill: Skill, robot: Robot) -> tuple[float, float, float]:
     """The velocity a skill is meant for on a robot: forward, left [m/s], yaw rate [rad/s]."""
     k = speed_scale(robot)
     return skill.speed * k * skill.way[0], skill.speed * k * skill.way[1], skill.turn / k
+
+
+def cruising(robot: Robot) -> list[tuple[float, Skill]]:
+    """The skills that a robot goes forward with, the calmest first, and up to what speed [m/s] with each."""
+    rows = (LIBRARY[name] for name in skill_names(robot.n))
+    found = [(min(row.cruise * speed_scale(robot), fastest(row, robot)), row) for row in rows if row.cruise]
+    return sorted(found, key=lambda pair: pair[0])
 
 
 def check_speed(skill: Skill, robot: Robot, speed: float) -> None:

@@ -23,7 +23,7 @@ BodyPose = Float[np.ndarray, "5"]
 
 
 @dataclass(frozen=True)
-class Step:
+class ClimbStep:
     """One foot from a foothold to the next, and where the body is for it."""
 
     leg: int
@@ -52,7 +52,9 @@ class Motion:
     """Reach codes of `model.kinematics`."""
 
 
-def motion(robot: Robot, steps: tuple[Step, ...], seconds: float, time: Float[np.ndarray, "n"]) -> Motion:
+def motion(
+    robot: Robot, steps: tuple[ClimbStep, ...], seconds: float, time: Float[np.ndarray, "n"]
+) -> Motion:
     """The motion that steps of `seconds` each make, at times from the start [s]; after the last it stands."""
     number = np.clip((time / seconds).astype(int), 0, len(steps) - 1)
     share = np.clip(time / seconds - number, 0.0, 1.0)
@@ -70,7 +72,7 @@ def motion(robot: Robot, steps: tuple[Step, ...], seconds: float, time: Float[np
 
 
 def feet_motion(
-    steps: tuple[Step, ...], number: Int[np.ndarray, "n"], share: Float[np.ndarray, "n"]
+    steps: tuple[ClimbStep, ...], number: Int[np.ndarray, "n"], share: Float[np.ndarray, "n"]
 ) -> tuple[Float[np.ndarray, "n legs 3"], Bool[np.ndarray, "n legs"]]:
     """Foot centres, and which feet stand, at a `share` of step `number`."""
     feet = np.array([step.feet_w for step in steps])[number]

@@ -26,7 +26,7 @@ from gaitwright.gait.climb.checks import (
     to_world,
     trunk_room,
 )
-from gaitwright.gait.climb.motion import SHIFT, BodyPose, Motion, Step, motion
+from gaitwright.gait.climb.motion import SHIFT, BodyPose, ClimbStep, Motion, motion
 from gaitwright.gait.regulation import regulate
 from gaitwright.ground.scene import Scene
 from gaitwright.model.kinematics import REACHED
@@ -58,7 +58,7 @@ class Ascent:
     """A climb: its steps, the motion they make, and whether all of it fits."""
 
     robot: Robot
-    steps: tuple[Step, ...]
+    steps: tuple[ClimbStep, ...]
     seconds: float
     """Duration of a step [s]."""
     motion: Motion
@@ -158,7 +158,7 @@ def order_of(legs: int) -> tuple[int, ...]:
 
 
 # --- the plan --------------------------------------------------------------------------------------
-def plan(robot: Robot, scene: Scene, cycles: int, stride: float, tilts: bool) -> Iterator[Step]:
+def plan(robot: Robot, scene: Scene, cycles: int, stride: float, tilts: bool) -> Iterator[ClimbStep]:
     """The steps of a climb: every foot `cycles` strides ahead."""
     x, y, _ = scene.start
     nominal = robot.stance[:, :2] + (x, y)
@@ -167,7 +167,7 @@ def plan(robot: Robot, scene: Scene, cycles: int, stride: float, tilts: bool) ->
     for cycle, leg in product(range(1, cycles + 1), order_of(robot.n)):
         landing = foothold(robot, scene, leg, nominal[leg, 0] + cycle * stride, nominal[leg, 1])
         apex = carried_over(robot, scene, leg, feet[leg], landing)
-        step = comfortable(robot, scene, Step(leg, feet.copy(), landing, apex, body, body), tilts)
+        step = comfortable(robot, scene, ClimbStep(leg, feet.copy(), landing, apex, body, body), tilts)
         yield step
         body = step.body
         feet[leg] = landing
@@ -182,7 +182,7 @@ def regulated(
     return np.array([place[0], place[1], pose.height, *turn])
 
 
-def comfortable(robot: Robot, scene: Scene, step: Step, tilts: bool) -> Step:
+def comfortable(robot: Robot, scene: Scene, step: ClimbStep, tilts: bool) -> ClimbStep:
     """The step with the first body pose that has room on all sides, else with the one that has most."""
     best, most = step, -math.inf
     for stand, ahead in product(STANDS, AHEAD):
@@ -195,7 +195,7 @@ def comfortable(robot: Robot, scene: Scene, step: Step, tilts: bool) -> Step:
     return best
 
 
-def balanced(robot: Robot, step: Step, stand: float, ahead: float, tilts: bool) -> Step:
+def balanced(robot: Robot, step: ClimbStep, stand: float, ahead: float, tilts: bool) -> ClimbStep:
     """The step with a body whose centre of mass is over the feet that stay."""
     staying = np.delete(step.feet_w, step.leg, axis=0)[:, :2]
     middle = step.feet_w[:, :2].mean(axis=0) + np.array([ahead, 0.0])
@@ -209,7 +209,7 @@ def balanced(robot: Robot, step: Step, stand: float, ahead: float, tilts: bool) 
     return replace(step, body=regulated(step.feet_w, place, stand, tilts))
 
 
-def ease_of(robot: Robot, scene: Scene, step: Step) -> float:
+def ease_of(robot: Robot, scene: Scene, step: ClimbStep) -> float:
     """How much room a step leaves, 1 where it is as much as `COMFORT` asks; below 0 it does not fit."""
     made = motion(robot, (step,), 1.0, np.array([0.5 * SHIFT, SHIFT, 0.5 + 0.5 * SHIFT, 1.0]))
     of, height = links(robot, made.q), robot.height

@@ -22,7 +22,7 @@ from gaitwright.signals import Gait
 
 SAMPLES = 128
 """Moments of a swing that are looked at, besides the points themselves."""
-CLEAR = 0.02
+LEAST_CLEARANCE = 0.02
 """A foot is this much over the ground, in body heights, …"""
 WAY = 0.1
 """… while it is further than this, in strides, from where it left and from where it will land."""
@@ -119,7 +119,7 @@ def out_of_reach(cycle: LegCycle, robot: Robot, swing: Swing) -> Fault | None:
 
 def dragging(cycle: LegCycle, robot: Robot, swing: Swing) -> Fault | None:
     """The foot that is nearest to the ground while it is on its way."""
-    least = CLEAR * robot.height
+    least = LEAST_CLEARANCE * robot.height
     on_its_way = np.abs(swing.way - 0.5) < 0.5 - WAY
     i, leg = lowest = worst_of(np.where(on_its_way, least - swing.height, -np.inf))
     height = float(swing.height[i, leg])

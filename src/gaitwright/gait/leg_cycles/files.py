@@ -9,7 +9,6 @@ A point is: share of the swing, forward in strides, height in body heights (`leg
 and `hind` may be left out; the name of the cycle is that of the file.
 """
 
-import json
 import re
 from functools import cache
 from pathlib import Path
@@ -19,7 +18,6 @@ import msgspec
 from msgspec import Meta
 
 from gaitwright.errors import BadFile, unknown
-from gaitwright.files import whole
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle, Point, fault_of
 
 MAX_BYTES = 100_000
@@ -67,23 +65,6 @@ def cycle_of(skill: str) -> LegCycle:
 def built_in(name: str) -> LegCycle:
     """A cycle that comes along."""
     return read(str(BUILT_IN / f"{name}.json"))
-
-
-def save_cycle(cycle: LegCycle, path: str | Path) -> Path:
-    """Writes a cycle to a JSON file, a point a line; complete or not at all."""
-    fields = [f'"about": {json.dumps(cycle.about, ensure_ascii=False)}'] if cycle.about else []
-    fields.append(f'"points": {laid_out(cycle.points)}')
-    if cycle.hind is not None:
-        fields.append(f'"hind": {laid_out(cycle.hind)}')
-    with whole(Path(path)) as draft:
-        draft.write_text("{" + ",\n ".join(fields) + "}\n", encoding="utf-8")
-    return Path(path)
-
-
-def laid_out(points: tuple[Point, ...]) -> str:
-    """Points as JSON, a line for each."""
-    rows = [[int(x) if x == int(x) else x for x in point] for point in points]
-    return "[\n  " + ",\n  ".join(json.dumps(row) for row in rows) + "]"
 
 
 # --- reading ---------------------------------------------------------------------------------------
