@@ -9,7 +9,7 @@ import pytest
 from gaitwright.errors import WrongUse
 from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.ground.terrain import Box, Flat
-from gaitwright.locomotion import Brain
+from gaitwright.locomotion import Brain, Lap
 from gaitwright.numerics.geometry import heading, rotation
 from gaitwright.plant.mujoco.simulation import MujocoPlant
 from gaitwright.session import DT, Push, Session, record, scene_for, walk
@@ -145,3 +145,24 @@ def test_a_real_robot_walks_but_cannot_be_pushed_from_here() -> None:
     with pytest.raises(WrongUse, match="a Telephone is no simulation"):
         session.push(Push(0.1, 0.0, at=0.1))
     assert record(session).stopped_because == "the 0.2 s asked for are over"
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt(), SystemError("a result with an exception set")])
+def test_ctrl_c_keeps_what_was_recorded_also_where_it_meets_a_kernel(error: BaseException) -> None:
+    if isinstance(error, SystemError):
+        error.__cause__ = KeyboardInterrupt()
+
+    def watch(lap: Lap) -> None:
+        if lap.sensed.time > 0.05:
+            raise error
+
+    recording = record(trotting(), watch=watch)
+    assert recording.stopped_because == "interrupted" and 20 < len(recording) < 30
+
+
+def test_another_system_error_is_none_of_the_users() -> None:
+    def watch(lap: Lap) -> None:
+        raise SystemError("something else")
+
+    with pytest.raises(SystemError, match="something else"):
+        record(trotting(), watch=watch)

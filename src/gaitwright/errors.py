@@ -35,3 +35,10 @@ def unknown(kind: str, asked: str, known: Iterable[str]) -> WrongUse:
     near = get_close_matches(asked, names, n=1)
     hint = f"; did you mean {near[0]!r}?" if near else ""
     return WrongUse(f"no {kind} {asked!r}; there is: {', '.join(names)}{hint}")
+
+
+def is_interrupt(error: BaseException) -> bool:
+    """Whether an error is the user's Ctrl-C: met in a compiled kernel, it comes out as a `SystemError`."""
+    return isinstance(error, KeyboardInterrupt) or (
+        isinstance(error, SystemError) and isinstance(error.__cause__, KeyboardInterrupt)
+    )

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gaitwright.control.numerical import idle
-from gaitwright.errors import NoRoom, WrongUse
+from gaitwright.errors import NoRoom, WrongUse, is_interrupt
 from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.locomotion import Brain, Lap, Mind, think
 from gaitwright.model.robot import Robot
@@ -237,6 +237,9 @@ def record(
             recorder.add(lap)
             if watch is not None:
                 watch(lap)
-    except (KeyboardInterrupt, NoRoom):
+    except NoRoom:
         pass
+    except (KeyboardInterrupt, SystemError) as error:
+        if not is_interrupt(error):
+            raise
     return recorder.finish()

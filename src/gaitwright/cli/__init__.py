@@ -9,7 +9,7 @@ import traceback
 from importlib import import_module
 
 from gaitwright.cli.options import read
-from gaitwright.errors import GaitwrightError
+from gaitwright.errors import GaitwrightError, is_interrupt
 
 DEFECT, INTERRUPTED, BROKEN_PIPE = 70, 130, 141
 
@@ -29,7 +29,10 @@ def main(argv: list[str] | None = None) -> int:
         # Nobody reads any more; what is left in the buffer must not be written when Python ends.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return BROKEN_PIPE
-    except Exception:  # the last door: whatever comes here is our mistake and shown in full
+    except Exception as error:  # the last door: whatever comes here is our mistake and shown in full
+        if is_interrupt(error):
+            print("gaitwright: interrupted", file=sys.stderr)
+            return INTERRUPTED
         traceback.print_exc()
         print(
             "gaitwright: this is a defect; please report it with the lines above and the command",

@@ -53,7 +53,7 @@ def share_within(limit, x, y, along_x, along_y):
     c = x * x + y * y - limit * limit
     if a + 2.0 * b + c <= 0.0 or a == 0.0:
         return 1.0
-    return (math.sqrt(max(b * b - a * c, 0.0)) - b) / a
+    return min(1.0, max(0.0, (math.sqrt(max(b * b - a * c, 0.0)) - b) / a))
 
 
 @kernel
