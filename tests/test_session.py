@@ -150,7 +150,8 @@ def test_a_real_robot_walks_but_cannot_be_pushed_from_here() -> None:
 @pytest.mark.parametrize("error", [KeyboardInterrupt(), SystemError("a result with an exception set")])
 def test_ctrl_c_keeps_what_was_recorded_also_where_it_meets_a_kernel(error: BaseException) -> None:
     if isinstance(error, SystemError):
-        error.__cause__ = KeyboardInterrupt()
+        error.__cause__ = SystemError("another around it")
+        error.__cause__.__cause__ = KeyboardInterrupt()
 
     def watch(lap: Lap) -> None:
         if lap.sensed.time > 0.05:

@@ -37,8 +37,8 @@ def unknown(kind: str, asked: str, known: Iterable[str]) -> WrongUse:
     return WrongUse(f"no {kind} {asked!r}; there is: {', '.join(names)}{hint}")
 
 
-def is_interrupt(error: BaseException) -> bool:
-    """Whether an error is the user's Ctrl-C: met in a compiled kernel, it comes out as a `SystemError`."""
-    return isinstance(error, KeyboardInterrupt) or (
-        isinstance(error, SystemError) and isinstance(error.__cause__, KeyboardInterrupt)
-    )
+def is_interrupt(error: BaseException | None) -> bool:
+    """Whether an error is the user's Ctrl-C: met in a compiled kernel, it comes out as a `SystemError` or two."""
+    while isinstance(error, SystemError):
+        error = error.__cause__
+    return isinstance(error, KeyboardInterrupt)

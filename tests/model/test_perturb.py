@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from gaitwright.description.load import load_robot
@@ -66,7 +66,10 @@ def test_it_stands_level_on_legs_alike_left_and_right(seed: int, name: str):
 
 @given(seed=SEEDS, name=st.sampled_from(NAMES))
 def test_inertias_stay_those_of_bodies(seed: int, name: str):
-    new = perturbed(ROBOTS[name], seed, 0.5)
+    try:
+        new = perturbed(ROBOTS[name], seed, 0.5)
+    except WrongUse:  # links so changed that the robot cannot stand on them
+        assume(False)
     tensors = [new.base_inertia, *new.inertia.reshape(-1, 3, 3)]
     for old, tensor in zip(
         [ROBOTS[name].base_inertia, *ROBOTS[name].inertia.reshape(-1, 3, 3)], tensors, strict=True
