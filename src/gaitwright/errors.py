@@ -38,7 +38,7 @@ def unknown(kind: str, asked: str, known: Iterable[str]) -> WrongUse:
 
 
 def is_interrupt(error: BaseException | None) -> bool:
-    """Whether an error is the user's Ctrl-C: met in a compiled kernel, it comes out as a `SystemError` or two."""
+    """Whether an error is the user's Ctrl-C: met in a compiled kernel, it comes out as a `SystemError`."""
     while isinstance(error, SystemError):
         error = error.__cause__
     return isinstance(error, KeyboardInterrupt)
