@@ -132,15 +132,22 @@ class Brain:
             self, coordinator=coordinator, controllers={**self.controllers, "programmed": programmed}
         )
 
-    def begin(self, mission: Mission, measured: Measured, phase: float = 0.0) -> "Mind":
-        """The mind of a robot that stands as measured and gets a mission."""
-        sensed, ground, perceived = self.perception.perceive(measured, None)
-        route, travelled = self.navigator.set_out(
-            mission, sensed, ground, self.perception.look(ground, sensed)
-        )
-        call = self.chosen(mission, route, sensed, None, ground)
-        gait = self.coordinator.begin(sensed, phase)
-        return Mind(mission, ground, route, call, Memories(perceived, travelled, gait))
+    def begin(
+        self, mission: Mission, measured: Measured, phase: float = 0.0, before: "Mind | None" = None
+    ) -> "Mind":
+        """The mind of a robot that stands as measured and gets a mission.
+
+        `before`: its mind so far, where it is under way: then gait and controller go on as they were.
+        """
+        sensed, ground, perceived = self.perception.perceive(measured, before and before.memories.perception)
+        scan = self.perception.look(ground, sensed)
+        route, travelled = self.navigator.set_out(mission, sensed, ground, scan)
+        call = self.chosen(mission, route, sensed, before and before.call, ground)
+        if before is None:
+            memories = Memories(perceived, travelled, self.coordinator.begin(sensed, phase))
+            return Mind(mission, ground, route, call, memories)
+        memories = replace(before.memories, perception=perceived, navigator=travelled)
+        return replace(before, mission=mission, ground=ground, route=route, call=call, memories=memories)
 
     def chosen(
         self, mission: Mission, route: Route, sensed: Sensed, now: SkillCall | None, ground: GroundMap

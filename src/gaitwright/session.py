@@ -31,10 +31,14 @@ PUSH_LASTS = 0.1
 """How long a push lasts where nothing else is said [s]."""
 
 
+def scene_scale(robot: Robot) -> float:
+    """What the lengths of built-in scenes are multiplied by: the robot's height / 0.29 m, but for dogs."""
+    return 1.0 if robot.height <= DOG_SIZED else float(round(robot.height / REFERENCE_HEIGHT))
+
+
 def scene_for(robot: Robot, name_or_path: str, seed: int = 0) -> Scene:
-    """A scene in a robot's size: built-in ones have every length times its height / 0.29 m, but for dogs."""
-    scale = 1.0 if robot.height <= DOG_SIZED else float(round(robot.height / REFERENCE_HEIGHT))
-    return load_scene(name_or_path, seed, scale)
+    """A scene of that name in a robot's size, or one from a file as it is."""
+    return load_scene(name_or_path, seed, scene_scale(robot))
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,17 +156,8 @@ class Session:
     def give(self, mission: Mission) -> None:
         """Another mission from the next step on; the gait goes on, the new way is planned from here."""
         self.brain.controller(mission.driver)
-        sensed, ground, perceived = self.brain.perception.perceive(
-            self.measured, self.mind.memories.perception
-        )
-        scan = self.brain.perception.look(ground, sensed)
-        route, travelled = self.brain.navigator.set_out(mission, sensed, ground, scan)
-        memories = replace(self.mind.memories, perception=perceived, navigator=travelled)
-        call = self.brain.chosen(mission, route, sensed, self.mind.call, ground)
-        self.mind = replace(
-            self.mind, mission=mission, ground=ground, route=route, call=call, memories=memories
-        )
-        self.termination.set_out(sensed.time)
+        self.mind = self.brain.begin(mission, self.measured, before=self.mind)
+        self.termination.set_out(self.measured.time)
 
     def drive(self, driver: str) -> None:
         """Another driver from the next step on."""

@@ -30,6 +30,11 @@ Map = GroundMap | None
 class Perception(Protocol):
     """Measured → Sensed and GroundMap."""
 
+    @property
+    def ground(self) -> GroundMap:
+        """What is known of the ground before anything was measured."""
+        ...
+
     def perceive(self, measured: Measured, memory: Memory) -> tuple[Sensed, GroundMap, Memory]:
         """What is, and what is known of the ground; `memory` is `None` at the start."""
         ...

@@ -19,7 +19,6 @@ from gaitwright.locomotion import Brain, Lap
 from gaitwright.model.robot import Robot
 from gaitwright.navigation.navigator import Navigator
 from gaitwright.numerics.compiled import is_warm
-from gaitwright.perception.known_ground import map_of
 from gaitwright.plant.registry import make_plant
 from gaitwright.record.recording import INTERRUPTED, Recording, Report
 from gaitwright.session import DT, Push, Session, record, scene_for, walk
@@ -86,7 +85,7 @@ def set_up(robot: Robot, scene: Scene, chooser: Chooser, distribution: Method) -
     """The brain of a robot in a scene. Raises `WrongUse` where the start is no place to stand."""
     brain = Brain.of(robot, scene, chooser, DT, distribution)
     x, y, _ = scene.start
-    if Navigator(robot).view(map_of(scene, robot)).blocked((x, y)):
+    if Navigator(robot).view(brain.perception.ground).blocked((x, y)):
         raise WrongUse(
             f"the start ({x:g}, {y:g}) is on an obstacle of scene {scene.name}, or too near to one"
         )

@@ -137,6 +137,8 @@ class Load(NamedTuple):
 LOAD = Layout.of(Load)
 load_of = LOAD.views(Load)
 """The `Load` in a row, as views; for kernels too."""
+empty_load = LOAD.empty()
+wrench_at, free_at, arm_at, push_at, turn_at = (LOAD.start(name) for name in Load._fields)
 
 
 AS_WANTED = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
@@ -155,7 +157,7 @@ def demand(packed, moment, short):
     linear, angular = base_acceleration(w0, R, times(R, w), moment)
     linear, angular = add(linear, short[0]), add(angular, short[1])
     a, wd = add(times_t(R, linear), up_b), times_t(R, angular)
-    out = np.empty(6 + 24 * n)
+    out = empty_load(n)
     mass, com, inertia = base_at(packed)
     force, torque = link_load((w, wd, a), mass, com, inertia)
     for k in range(n):
@@ -175,13 +177,13 @@ def demand(packed, moment, short):
         f, g, free = leg_load(turns, qdd, leg, motion, NO_LOAD)
         force, torque = add(force, f), add(torque, g)
         below_w = scale(-leg.foot_radius, vec(moment.normal))
-        write(out, 6 + 3 * k, free)
-        write(out, 6 + 3 * n + 3 * k, add(times(R, in_base), below_w))
+        write(out, free_at(out) + 3 * k, free)
+        write(out, arm_at(out) + 3 * k, add(times(R, in_base), below_w))
         below = apply_t(leg.frame, times_t(R, below_w))
-        at = 6 + 6 * n + 9 * k
-        write_maps(out, at, at + 9 * n, R, leg, turns, (c1, c2, c3), below)
-    write(out, 0, times(R, force))
-    write(out, 3, times(R, torque))
+        push, turn = push_at(out) + 9 * k, turn_at(out) + 9 * k
+        write_maps(out, push, turn, R, leg, turns, (c1, c2, c3), below)
+    write(out, wrench_at(out), times(R, force))
+    write(out, wrench_at(out) + 3, times(R, torque))
     return out
 
 

@@ -62,9 +62,4 @@ def moments_of(sensed: Sequence[Sensed], targets: Sequence[MotionTarget]) -> Mom
 
 def row(s: Sensed, t: MotionTarget) -> Float[np.ndarray, "numbers"]:
     """One moment as a row."""
-    parts = Moment(
-        s.position_w, s.orientation_wb, s.velocity_w, s.angular_velocity_b, t.normal_w, t.position_w,
-        t.velocity_w, t.acceleration_w, t.angular_velocity_w, t.angular_acceleration_w, t.rotation_wb,
-        t.stance, t.load_scale, s.q, s.qd, t.feet_w, t.feet_velocity_w, t.feet_acceleration_w,
-    )  # fmt: skip
-    return LAYOUT.pack(parts)
+    return LAYOUT.pack(moment_between(s.row, t.row))

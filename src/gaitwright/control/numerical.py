@@ -44,13 +44,14 @@ class TickResult(NamedTuple):
 LAYOUT = Layout.of(TickResult, limits=LIMITS)
 result_of = LAYOUT.views(TickResult)
 """The `TickResult` in a row, as views; for kernels too."""
-CONSTANT, PER_LEG = LAYOUT.length
+empty_result = LAYOUT.empty()
 
 
 @kernel
 def blank_result(n):
     """The row of a tick before the first one: no forces, no hints."""
-    out = np.zeros(CONSTANT + PER_LEG * n)
+    out = empty_result(n)
+    out[:] = 0.0
     result_of(out).basis[:] = -1.0
     return out
 

@@ -142,6 +142,8 @@ class Dynamics(NamedTuple):
 DYNAMICS = Layout.of(Dynamics)
 dynamics_in = DYNAMICS.views(Dynamics)
 """The `Dynamics` in a row, as views; for kernels too."""
+empty_dynamics = DYNAMICS.empty()
+wrench_at, tau_at, feet_at, columns_at = (DYNAMICS.start(name) for name in Dynamics._fields)
 
 
 def state_numbers(
@@ -164,7 +166,7 @@ def dynamics_of(packed, numbers):
     """
     n = legs_of(packed)
     w, wd, a = vec_at(numbers, 0), vec_at(numbers, 3), vec_at(numbers, 6)
-    out = np.empty(6 + 15 * n)
+    out = empty_dynamics(n)
     mass, com, inertia = base_at(packed)
     force, moment = link_load((w, wd, a), mass, com, inertia)
     for k in range(n):
@@ -178,14 +180,14 @@ def dynamics_of(packed, numbers):
         f, g, tau = leg_load(turns, qdd, leg, motion, NO_LOAD)
         force, moment = add(force, f), add(moment, g)
         foot, c1, c2, c3 = foot_and_columns(turns, leg.offset, leg.sign)
-        write(out, 6 + 3 * k, tau)
-        write(out, 6 + 3 * n + 3 * k, add(leg.hip, apply(leg.frame, foot)))
-        at = 6 + 6 * n + 9 * k
+        write(out, tau_at(out) + 3 * k, tau)
+        write(out, feet_at(out) + 3 * k, add(leg.hip, apply(leg.frame, foot)))
+        at = columns_at(out) + 9 * k
         write(out, at, apply(leg.frame, c1))
         write(out, at + 3, apply(leg.frame, c2))
         write(out, at + 6, apply(leg.frame, c3))
-    write(out, 0, force)
-    write(out, 3, moment)
+    write(out, wrench_at(out), force)
+    write(out, wrench_at(out) + 3, moment)
     return out
 
 

@@ -36,7 +36,7 @@ from gaitwright.numerics.geometry import (
 from gaitwright.numerics.matrices import write
 from gaitwright.signals import Gait, GroundMap, MotionTarget, Sensed, SkillCall
 
-TARGET_BODY, TARGET_LEG = MotionTarget.layout.length
+empty_target = MotionTarget.layout.empty()
 target_fields = MotionTarget.layout.views(raw=True)
 sensed_fields = Sensed.layout.views()
 
@@ -114,7 +114,7 @@ def coordinate(
         model, state, clock, cycles, leans, ground, level, at, v, base_v, feet_w, height
     )
     base_p = add(base_p, reach_assist(model, state, rotation_d, base_p, feet_w, duty, height))
-    out = np.empty(TARGET_BODY + TARGET_LEG * felt.size)
+    out = empty_target(felt.size)
     target = target_fields(out)
     target.phase[0], target.command[:] = phase, state.command
     target.stance[:] = state.mode == STANCE

@@ -21,7 +21,7 @@ class GaitState(NamedTuple):
     command: Float[np.ndarray, "3"]
     """Slewed command: forward, left [m/s], yaw rate [rad/s]."""
     reference_pose: Float[np.ndarray, "3"]
-    """Where the body should be by now: x, y [m], yaw [rad]; on a lead."""
+    """Where the body should be by now: x, y [m], yaw [rad]; it leads by no more than a bound."""
     slope: Float[np.ndarray, "3"]
     """Ground plane of the foot centres: ∂z/∂x, ∂z/∂y, and its height under the base [m]."""
     waited: Float[np.ndarray, "1"]

@@ -11,6 +11,7 @@ from gaitwright.model.robot import Robot
 from gaitwright.navigation.navigator import Navigator
 from gaitwright.navigation.obstacles import PlanView
 from gaitwright.perception.known_ground import KnownGround
+from gaitwright.session import scene_scale
 from gaitwright.signals import Mission
 from gaitwright.skills.library import speed_scale
 
@@ -28,7 +29,7 @@ def course(robot: Robot, seed: int, kind: str = "", name: str = "") -> Course:
     """A mission for a robot in a scene; `kind` is drawn too where none is given."""
     rng = np.random.default_rng([seed, 6])
     kind = kind or KINDS[int(rng.integers(len(KINDS)))]
-    scale = 1.0 if robot.height <= 0.6 else float(round(robot.height / 0.29))
+    scale = scene_scale(robot)
     scene = replace(scene_of(kind, rng, scale), start=(0.0, 0.0, 0.0))
     navigator, perception = Navigator(robot), KnownGround.of(scene, robot)
     low, high = SPEEDS[int(rng.integers(len(SPEEDS)))]

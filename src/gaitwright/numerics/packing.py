@@ -106,6 +106,11 @@ class Layout:
         a, b = self.named(name).start
         return compiled_source(f"return {a} + {b} * n", self)
 
+    def empty(self) -> Callable[[int], Row]:
+        """A function number of legs → a row with room for the fields; kernels can call it."""
+        a, b = self.length
+        return jitable(f"def new(n):\n    return empty({a} + {b} * n)\n", "new", {"empty": np.empty})
+
     def legs(self) -> Callable[[Row], int]:
         """A function row → the number of legs; kernels can call it."""
         return compiled_source("return n", self)
@@ -142,9 +147,13 @@ def compiled_source(body: str, layout: Layout, build: Callable[..., Any] | None 
     """A small function of a row, written from a layout: its offsets are constants to the compiler."""
     constant, per_leg = layout.length
     legs = f"n = (row.size - {constant}) // {per_leg}\n    " if per_leg else ""
-    space: dict[str, Any] = {"build": build}
-    exec(f"def read(row):\n    {legs}{body}\n", space)
-    return register_jitable(space["read"])
+    return jitable(f"def read(row):\n    {legs}{body}\n", "read", {"build": build})
+
+
+def jitable(source: str, name: str, space: dict[str, Any]) -> Callable[..., Any]:
+    """The function of that name in some source, for Python and for kernels."""
+    exec(source, space)
+    return register_jitable(space[name])
 
 
 P = TypeVar("P", bound="Packed")

@@ -34,7 +34,7 @@ class KnownGround:
 
 
 def map_of(scene: Scene, robot: Robot, sees: bool = True) -> GroundMap:
-    """Everything about a scene that a robot may know; outlines of obstacles only where it does not see."""
+    """Everything that a robot may know of a scene; one that does not see knows what it must walk around."""
     step = (SEEN_STEP if sees else BLIND_STEP) * robot.height
     return GroundMap(
         scene.bounds,

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from gaitwright.locomotion import Lap
-from gaitwright.signals import MotionTarget, Route, Scan
+from gaitwright.signals import MotionTarget, Route, Scan, Sensed
 
-STATE = ("time", "position_w", "orientation_wb", "velocity_w", "angular_velocity_b", "q", "qd", "load", "tau")
+STATE = (*(column.name for column in Sensed.layout.columns), "tau")
 """The channels that `state_hash` covers."""
 
 ROUTE = {"route_next": 2, "route_points": 1, "route_remaining": 1, "route_speed": 1, "route_arrived": 1}
@@ -26,14 +26,7 @@ SITUATION = (*ROUTE, *SCAN)
 def widths(legs: int) -> dict[str, int]:
     """The channels of a recording and how many numbers each has; those of the situation last."""
     return {
-        "time": 1,
-        "position_w": 3,
-        "orientation_wb": 4,
-        "velocity_w": 3,
-        "angular_velocity_b": 3,
-        "q": 3 * legs,
-        "qd": 3 * legs,
-        "load": legs,
+        **{name: where.stop - where.start for name, where in Sensed.layout.slices(legs).items()},
         "tau": 3 * legs,
         "forces_w": 3 * legs,
         "stance": legs,

@@ -14,7 +14,7 @@ from gaitwright.plant.instruments import specific_force
 from gaitwright.plant.limits import check_force, check_timestep
 from gaitwright.plant.mujoco.world import Placed, build_world
 from gaitwright.plant.start import start_of
-from gaitwright.signals import Measured, MotorCommand
+from gaitwright.signals import Measured, MotorCommand, Sensed
 
 
 @dataclass(frozen=True)
@@ -165,15 +165,16 @@ class MujocoPlant:
         return self.world.sense(0, self.dt)
 
 
+empty_state, state_fields = Sensed.layout.empty(), Sensed.layout.views(raw=True)
+
+
 @kernel
 def state_row(time, qpos, qvel, touch, before, dt):
     """The row of a `Sensed`, and the specific force; `before`: velocity one control period ago."""
-    joints, legs = qpos.size - 7, touch.size
-    row = np.empty(14 + 7 * legs)
-    row[0] = time
-    row[1:8] = qpos[:7]
-    row[8:14] = qvel[:6]
-    row[14 : 14 + joints] = qpos[7:]
-    row[14 + joints : 14 + 2 * joints] = qvel[6:]
-    row[14 + 2 * joints :] = touch
+    row = empty_state(touch.size)
+    state = state_fields(row)
+    state.time[0], state.load[:] = time, touch
+    state.position_w[:], state.orientation_wb[:] = qpos[:3], qpos[3:7]
+    state.velocity_w[:], state.angular_velocity_b[:] = qvel[:3], qvel[3:6]
+    state.q[:], state.qd[:] = qpos[7:].reshape(state.q.shape), qvel[6:].reshape(state.qd.shape)
     return row, specific_force(qpos[3:7], qvel, before, dt)
