@@ -40,6 +40,8 @@ HOPELESS = 2.1
 In simulation gaits give way between 1.4 and 2.1 times: momentum gets a body over what is missing. The
 hexapod climbs at 2.08.
 """
+DIGITS = 9
+"""Of a joint rate [rad/s]; what is smaller is rounding in J x = b, in a hinge that does not move at all."""
 
 
 @dataclass(frozen=True)
@@ -118,7 +120,7 @@ def motor_requirements(
         command=motion.command,
         torque=tau.max(axis=0),
         lasting=np.maximum(lasting(tau, motion.stance), lasting(tau, ~motion.stance)),
-        rate=np.abs(motion.qd).max(axis=0),
+        rate=np.abs(motion.qd).max(axis=0).round(DIGITS),
         force=np.linalg.norm(efforts.forces_w, axis=2).max(axis=0),
         reach=spare_length(motion).min(axis=0),
         room=np.minimum(motion.q - robot.q_min, robot.q_max - motion.q).min(axis=0),
