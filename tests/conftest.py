@@ -7,13 +7,16 @@ from pathlib import Path
 import numba
 import numpy as np
 import pytest
-from hypothesis import settings
+from hypothesis import Phase, settings
 
 EXAMPLES = 40
 """Of each property in a run; other seeds try others. The whole must stay under a quarter of an hour."""
-# A first call compiles: no deadline can hold.
-settings.register_profile("here", deadline=None, max_examples=EXAMPLES)
-settings.register_profile("ci", deadline=None, max_examples=EXAMPLES, derandomize=True, print_blob=True)
+# A first call compiles: no deadline can hold, and to trace one, as the phase `explain` does, takes an hour.
+PHASES = tuple(phase for phase in Phase if phase is not Phase.explain)
+settings.register_profile("here", deadline=None, max_examples=EXAMPLES, phases=PHASES)
+settings.register_profile(
+    "ci", deadline=None, max_examples=EXAMPLES, phases=PHASES, derandomize=True, print_blob=True
+)
 settings.load_profile("ci" if os.environ.get("CI") else "here")
 
 WORKER = os.environ.get("PYTEST_XDIST_WORKER")

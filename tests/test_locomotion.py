@@ -223,7 +223,7 @@ def on_the_way() -> tuple[Brain, Lap]:
 def later(lap: Lap, time: float, **changes) -> Lap:
     """The same lap at another time; `remaining` metres to go."""
     route = replace(lap.route, remaining=changes.pop("remaining", lap.route.remaining))
-    return replace(lap, sensed=replace(lap.sensed, time=time, **changes), route=route)
+    return lap._replace(sensed=replace(lap.sensed, time=time, **changes), route=route)
 
 
 def watching(brain: Brain) -> Termination:
@@ -250,7 +250,7 @@ def test_no_progress_is_noticed_and_progress_is_patience_anew(on_the_way) -> Non
 def test_a_force_distribution_that_keeps_failing_is_an_overload(on_the_way) -> None:
     brain, lap = on_the_way
     watch, words = watching(brain), "these feet cannot carry this load"
-    bad = replace(lap, command=replace(lap.command, status=words))
+    bad = lap._replace(command=replace(lap.command, status=words))
     assert verdict(watch, later(lap, 1.0)) is None
     assert verdict(watch, later(bad, 1.1)) is None
     assert verdict(watch, later(lap, 1.2)) is None, "a moment's failure is forgiven"
@@ -260,7 +260,7 @@ def test_a_force_distribution_that_keeps_failing_is_an_overload(on_the_way) -> N
 
 def test_torques_that_are_no_numbers_never_reach_the_motors(on_the_way) -> None:
     brain, lap = on_the_way
-    broken = replace(lap, command=replace(lap.command, tau=np.full((4, 3), np.nan)))
+    broken = lap._replace(command=replace(lap.command, tau=np.full((4, 3), np.nan)))
     judged = verdict(watching(brain), broken)
     assert judged is not None and judged.because.startswith("a torque is not a number at ")
 

@@ -163,9 +163,9 @@ class Session:
         """Another driver from the next step on."""
         self.brain.controller(driver)
         mind = self.mind
-        memories = replace(mind.memories, control=None)
+        memories = mind.memories._replace(control=None)
         mission, call = replace(mind.mission, driver=driver), replace(mind.call, driver=driver)
-        self.mind = replace(mind, mission=mission, call=call, memories=memories)
+        self.mind = mind._replace(mission=mission, call=call, memories=memories)
 
     def push(self, push: Push) -> None:
         """A push that waits for its time."""
@@ -202,7 +202,7 @@ class Session:
 
 def ended(lap: Lap, ending: Ending) -> Lap:
     """The last lap of a run."""
-    return replace(lap, stopped_because=ending.because, arrived=ending.arrived, fell=ending.fell)
+    return lap._replace(stopped_because=ending.because, arrived=ending.arrived, fell=ending.fell)
 
 
 def walk(  # noqa: PLR0913 - the door to everything; most calls name three of these

@@ -242,8 +242,9 @@ class Posture:
     """Legs whose feet are on the ground."""
 
 
-@dataclass(frozen=True, slots=True)
-class MotorCommand:
+@packed
+@dataclass(frozen=True)
+class MotorCommand(Packed):
     """How hard: what every motor is told, as drives of legged robots want it, and what it rests on.
 
     A motor gives τ + k_p (q − q_now) + k_d (q̇ − q̇_now), within its limit; where no gains are set, τ.

@@ -3,6 +3,8 @@
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import GRAVITY
@@ -28,6 +30,7 @@ REST = 0.3
 
 
 sensed_fields = Sensed.layout.views()
+tau_of = MotorCommand.layout.field("tau")
 normal_of, feet_of, stance_of = (MotionTarget.layout.field(name) for name in ("normal_w", "feet_w", "stance"))
 
 
@@ -41,11 +44,14 @@ class Ending:
 
 
 @kernel
-def vital_signs(seen, asked, tau):
-    """What decides whether a run goes on, as plain numbers, from the rows of a `Sensed` and a `MotionTarget`.
+def vital_signs(seen, asked, told, bounds):
+    """What decides whether a run goes on, as plain numbers.
 
-    Cosine of the lean from the ground's normal; height over the lowest foot [m]; speed over ground [m/s];
-    whether a foot is loaded; whether all feet are down; whether every torque is a number.
+    `seen`, `asked`, `told`: the rows of a `Sensed`, a `MotionTarget` and a `MotorCommand`. They are:
+
+    Cosine of the lean from the ground's normal; height over the lowest foot [m]; whether it is within
+    `bounds`; speed over ground [m/s]; whether a foot is loaded; whether all feet are down; whether every
+    torque is a number.
     """
     _, position, orientation, velocity, _, _, _, load = sensed_fields(seen)
     w, x, y, z = orientation
@@ -55,10 +61,11 @@ def vital_signs(seen, asked, tau):
     return (
         lean,
         position[2] - feet_w[:, 2].min(),
+        bounds[0] <= position[0] <= bounds[2] and bounds[1] <= position[1] <= bounds[3],
         math.hypot(velocity[0], velocity[1]),
         load.max() > 0.0,
         stance_of(asked).all(),
-        math.isfinite(tau.sum()),
+        math.isfinite(tau_of(told).sum()),
     )
 
 
@@ -75,7 +82,8 @@ class Termination:
         seconds: float,
         begins: float = 0.0,
     ) -> None:
-        self.robot, self.bounds, self.seconds, self.ends = robot, bounds, seconds, begins + seconds
+        self.robot, self.seconds, self.ends = robot, seconds, begins + seconds
+        self.field = np.array(bounds, dtype=float)
         self.pace = math.sqrt(GRAVITY * robot.height)
         self.patience = STUCK * math.sqrt(robot.height / REFERENCE_HEIGHT)
         self.air_limit = AIRBORNE / robot.natural_frequency
@@ -91,13 +99,15 @@ class Termination:
         self, sensed: Sensed, route: Route, call: SkillCall, target: MotionTarget, command: MotorCommand
     ) -> Ending | None:
         """Why the run ends with this tick, or `None` where it goes on."""
-        lean, over_feet, speed, grounded, all_down, finite = vital_signs(sensed.row, target.row, command.tau)
+        lean, over_feet, inside, speed, grounded, all_down, finite = vital_signs(
+            sensed.row, target.row, command.row, self.field
+        )
         now = sensed.time
         if not finite:
             return Ending(f"a torque is not a number at {now:.3f} s: motors stopped")
         fault = (
             self.fallen(now, lean, over_feet)
-            or self.outside(sensed)
+            or (None if inside else self.outside(sensed))
             or self.unsupported(now, grounded, command.status)
             or self.stuck(route, sensed)
         )
@@ -122,12 +132,9 @@ class Termination:
             return Ending(sentence, fell=True)
         return None
 
-    def outside(self, sensed: Sensed) -> Ending | None:
+    def outside(self, sensed: Sensed) -> Ending:
         """A robot that has left the scene."""
-        x, y = float(sensed.position_w[0]), float(sensed.position_w[1])
-        x_min, y_min, x_max, y_max = self.bounds
-        if x_min <= x <= x_max and y_min <= y <= y_max:
-            return None
+        x, y, _ = sensed.position_w
         return Ending(f"left the scene at ({x:.2f}, {y:.2f}) after {sensed.time:.2f} s")
 
     def unsupported(self, now: float, grounded: bool, status: str) -> Ending | None:

@@ -114,7 +114,7 @@ def test_stretches_end_where_parts_do_and_where_they_do_not(monkeypatch: pytest.
 
 
 def test_a_filed_recording_that_blew_up_leaves_what_was_sound(laps: list[Lap], filed: Recording):
-    burst = replace(laps[700], sensed=replace(laps[700].sensed, position_w=np.full(3, 1e300)))
+    burst = laps[700]._replace(sensed=replace(laps[700].sensed, position_w=np.full(3, 1e300)))
     broken = recorded([*laps[:700], burst, *laps[701:]])
     sound = broken.sound()
     assert len(sound) == len(laps) - 1
@@ -176,7 +176,7 @@ def test_the_situation_of_a_recording_is_the_one_that_was_met(laps: list[Lap], f
 
 
 def test_nobody_looked_is_recorded_as_such(laps: list[Lap]):
-    blind = replace(laps[0], route=replace(laps[0].route, ahead=None, path=()))
+    blind = laps[0]._replace(route=replace(laps[0].route, ahead=None, path=()))
     route = route_at(recorded([blind]), 0)
     assert route is not None and route.ahead is None and route.path == ()
 
@@ -185,7 +185,7 @@ def test_nobody_looked_is_recorded_as_such(laps: list[Lap]):
 def test_arrays_of_other_types_are_converted(laps: list[Lap], short: Recording):
     def other(lap: Lap) -> Lap:
         q, load = np.asfortranarray(lap.sensed.q), lap.sensed.load.astype(np.float32)
-        return replace(lap, sensed=replace(lap.sensed, q=q, load=load))
+        return lap._replace(sensed=replace(lap.sensed, q=q, load=load))
 
     again = recorded([other(lap) for lap in laps])
     np.testing.assert_array_equal(again["q"], short["q"])
@@ -259,7 +259,7 @@ def peak():
 def made_of(laps, ticks, name):
     recorder = Recorder(robot, "flat", 0, 0.002)
     for tick, lap in enumerate(islice(cycle(laps), ticks)):
-        recorder.add(replace(lap, sensed=replace(lap.sensed, time=0.002 * tick)))
+        recorder.add(lap._replace(sensed=replace(lap.sensed, time=0.002 * tick)))
     recording = recorder.finish()
     del recorder
     report = recording.report()

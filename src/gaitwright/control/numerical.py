@@ -31,11 +31,12 @@ PLAIN = LinearSettings()
 class TickResult(NamedTuple):
     """What a tick comes to."""
 
-    residual: Float[np.ndarray, "1"]
     outcome: Float[np.ndarray, "2"]
     """Code of the solver, and the culprit where it failed."""
     tau: Float[np.ndarray, "legs 3"]
     forces_w: Float[np.ndarray, "legs 3"]
+    residual: Float[np.ndarray, "1"]
+    """These three are the row of a `MotorCommand`."""
     multipliers: Float[np.ndarray, "legs limits"]
     basis: Float[np.ndarray, "3*legs+1"]
     """Where the linear program may start at the next tick; -1: nowhere."""
@@ -44,53 +45,49 @@ class TickResult(NamedTuple):
 LAYOUT = Layout.of(TickResult, limits=LIMITS)
 result_of = LAYOUT.views(TickResult)
 """The `TickResult` in a row, as views; for kernels too."""
-empty_result = LAYOUT.empty()
 
 
-@kernel
-def blank_result(n):
+def blank_result(n: int) -> Row:
     """The row of a tick before the first one: no forces, no hints."""
-    out = empty_result(n)
-    out[:] = 0.0
+    out = np.zeros(LAYOUT.size(n))
     result_of(out).basis[:] = -1.0
     return out
 
 
 @kernel
-def tick(packed, before, seen, asked):
-    """One tick by the quadratic program: the row of a `TickResult`.
+def tick(packed, before, seen, asked, out):
+    """One tick by the quadratic program: writes the row of a `TickResult`.
 
     `before`: that of the tick before; `seen`, `asked`: the rows of a `Sensed` and a `MotionTarget`.
     """
     moment = moment_between(seen, asked)
-    return distributed(packed, demand(packed, moment, AS_WANTED), moment, result_of(before).forces_w)
+    distributed(packed, demand(packed, moment, AS_WANTED), moment, result_of(before).forces_w, out)
 
 
 @kernel
-def tick_linear(packed, before, seen, asked, settings):
+def tick_linear(packed, before, seen, asked, settings, out):
     """One tick by the linear program of `settings`, which starts where the one before ended."""
     moment, last = moment_between(seen, asked), result_of(before)
     load = demand(packed, moment, AS_WANTED)
-    return distributed_linear(packed, load, moment, last.forces_w, settings, last.basis)
+    distributed_linear(packed, load, moment, last.forces_w, settings, last.basis, out)
 
 
 @kernel
-def distributed(packed, load, moment, previous):
-    """The packed `TickResult` for a packed `Load`, by the quadratic program."""
+def distributed(packed, load, moment, previous, out):
+    """Writes the packed `TickResult` for a packed `Load`, by the quadratic program."""
     tau_max, weight, height = scales(packed)
     stance, normal = moment.stance, moment.normal
     x, prices, code, culprit = distribute(
         load, stance, moment.load_scale, normal, previous, tau_max, weight, height
     )
-    out = blank_result(stance.size)
-    result_of(out).multipliers[:] = prices
+    result = result_of(out)
+    result.multipliers[:], result.basis[:] = prices, -1.0
     conclude(out, packed, load, moment, x, code, culprit)
-    return out
 
 
 @kernel
-def distributed_linear(packed, load, moment, previous, settings, hints):
-    """The packed `TickResult` for a packed `Load`, by the linear program (point feet)."""
+def distributed_linear(packed, load, moment, previous, settings, hints, out):
+    """Writes the packed `TickResult` for a packed `Load`, by the linear program (point feet)."""
     tau_max, weight, height = scales(packed)
     stance, normal = moment.stance, moment.normal
     shared = distribute_linear(
@@ -106,13 +103,11 @@ def distributed_linear(packed, load, moment, previous, settings, hints):
         settings,
         hints.astype(np.int64),
     )
-    out = blank_result(stance.size)
     result = result_of(out)
     result.multipliers[:] = shared.multipliers
     result.basis[:] = shared.basis
     code, culprit = shared.code, shared.culprit
     conclude(out, packed, load, moment, shared.x, code, culprit)
-    return out
 
 
 LACKING = 1e-3
@@ -172,20 +167,17 @@ class NumericalController:
         """Joint torques [N·m] for this tick, and its `TickResult`, whose forces the next one goes on from."""
         robot, n = self.robot, self.robot.n
         before = self.blank if memory is None else memory
+        result = np.empty(before.size)
         if self.method == "qp":
-            numbers = tick(robot.packed, before, sensed.row, target.row)
+            tick(robot.packed, before, sensed.row, target.row, result)
         else:
-            numbers = tick_linear(robot.packed, before, sensed.row, target.row, self.settings)
-        residual, code, culprit = numbers[:3].tolist()
-        where = self.where
-        command = MotorCommand(
-            numbers[where["tau"]].reshape(n, 3),
-            numbers[where["forces_w"]].reshape(n, 3),
-            residual,
-            "solved" if code == SOLVED else self.reason(int(code), int(culprit), target.stance),
-            multipliers=numbers[where["multipliers"]].reshape(n, LIMITS),
-        )
-        return command, numbers
+            tick_linear(robot.packed, before, sensed.row, target.row, self.settings, result)
+        commanded, priced = self.where
+        multipliers = result[priced].reshape(n, LIMITS)
+        if result[0] == SOLVED:
+            return MotorCommand.of_row(result[commanded], multipliers=multipliers), result
+        why = self.reason(int(result[0]), int(result[1]), target.stance)
+        return MotorCommand.of_row(result[commanded], status=why, multipliers=multipliers), result
 
     def reason(self, code: int, culprit: int, stance: Bool[np.ndarray, "legs"]) -> str:
         """How a distribution ended, as a sentence."""
@@ -204,9 +196,10 @@ class NumericalController:
         return blank_result(self.robot.n)
 
     @cached_property
-    def where(self) -> dict[str, slice]:
-        """Where each field stands in a `TickResult`."""
-        return LAYOUT.slices(self.robot.n)
+    def where(self) -> tuple[slice, slice]:
+        """Where the row of the command and the multipliers stand in a `TickResult`."""
+        where = LAYOUT.slices(self.robot.n)
+        return slice(where["tau"].start, where["residual"].stop), where["multipliers"]
 
 
 def idle(robot: Robot) -> MotorCommand:

@@ -82,7 +82,7 @@ def work_out(packed, moments, every, out):
 def share_out(packed, moments, loads, before, out):
     """Second stage: packed results of some moments in turn; `before` (changed in place): the last forces."""
     for i in range(moments.shape[0]):
-        out[i] = distributed(packed, loads[i], moment_of(moments[i]), before)
+        distributed(packed, loads[i], moment_of(moments[i]), before, out[i])
         before[:] = result_of(out[i]).forces_w
 
 
@@ -90,7 +90,7 @@ def share_out(packed, moments, loads, before, out):
 def share_out_linear(packed, moments, loads, settings, before, hints, out):
     """The second stage by the linear program; `hints` (changed in place): its last basis."""
     for i in range(moments.shape[0]):
-        out[i] = distributed_linear(packed, loads[i], moment_of(moments[i]), before, settings, hints)
+        distributed_linear(packed, loads[i], moment_of(moments[i]), before, settings, hints, out[i])
         result = result_of(out[i])
         before[:] = result.forces_w
         hints[:] = result.basis
@@ -148,12 +148,12 @@ def finish(job: Job, chunks: Sequence[Chunk]) -> Efforts:
         else:
             share_out_linear(*task, settings, before, hints, found)
     where = LAYOUT.slices(n)
-    code, culprit = out[:, 1:3].astype(np.int64).T
+    code, culprit = out[:, where["outcome"]].astype(np.int64).T
     return Efforts(
         out[:, where["tau"]].reshape(steps, n, 3),
         out[:, where["forces_w"]].reshape(steps, n, 3),
         out[:, where["multipliers"]].reshape(steps, n, LIMITS),
-        out[:, 0],
+        out[:, where["residual"]][:, 0],
         code,
         culprit,
     )

@@ -34,9 +34,8 @@ from gaitwright.numerics.geometry import (
     vec,
 )
 from gaitwright.numerics.matrices import write
-from gaitwright.signals import Gait, GroundMap, MotionTarget, Sensed, SkillCall
+from gaitwright.signals import ElevationGrid, Gait, GroundMap, MotionTarget, Sensed, SkillCall
 
-empty_target = MotionTarget.layout.empty()
 target_fields = MotionTarget.layout.views(raw=True)
 sensed_fields = Sensed.layout.views()
 
@@ -69,22 +68,25 @@ def coordinate(
     offsets,
     cycles,
     leans,
-    ground,
-    old,
+    place,
+    heights,
+    edges,
     asked,
     seen,
     dt,
+    memory,
+    out,
 ):
-    """One tick of joint coordination: the rows of the new memory and of a `MotionTarget`.
+    """One tick of joint coordination: changes the row of the memory and writes that of a `MotionTarget`.
 
     `numbers`: the packed robot; `height`, `stand`: of its base over ground and foot centres; `threshold`:
     load of a foot in contact [N]; `clock`: (period, duty); `cycles`: the leg cycles, a table a leg;
-    `leans`: `shank_leans`; `ground`: what is known of it; `old`: the memory's row; `asked`: forward, left,
-    yaw rate; `seen`: the row of a `Sensed`.
+    `leans`: `shank_leans`; `place`, `heights`, `edges`: the `ElevationGrid`; `asked`: forward, left, yaw
+    rate; `seen`: the row of a `Sensed`.
     """
-    model = unpacked(numbers)
-    (period, duty), memory = clock, old.copy()
-    state, was = state_of(memory), old[0]
+    model, ground = unpacked(numbers), ElevationGrid(place, heights, edges)
+    (period, duty), state = clock, state_of(memory)
+    was = state.phase[0]
     _, position, orientation, velocity, _, q, _, load = sensed_fields(seen)
     rotation_wb = rotation(orientation)
     at, v = vec(position), vec(velocity)
@@ -114,7 +116,6 @@ def coordinate(
         model, state, clock, cycles, leans, ground, level, at, v, base_v, feet_w, height
     )
     base_p = add(base_p, reach_assist(model, state, rotation_d, base_p, feet_w, duty, height))
-    out = empty_target(felt.size)
     target = target_fields(out)
     target.phase[0], target.command[:] = phase, state.command
     target.stance[:] = state.mode == STANCE
@@ -124,7 +125,6 @@ def coordinate(
     target.feet_w[:], target.feet_velocity_w[:], target.feet_acceleration_w[:] = feet_p, feet_v, feet_a
     in_base = feet_in_base(rotation_d, base_p, feet_p)
     target.q[:], _ = all_angles(model.hip, model.leg_frame, model.offset, model.sign, model.branch, in_base)
-    return memory, out
 
 
 @kernel
@@ -191,10 +191,11 @@ class Coordinator:
         self, memory: GaitMemory, call: SkillCall, sensed: Sensed, ground: GroundMap | None = None
     ) -> tuple[MotionTarget, GaitMemory]:
         """What body, feet and joints should do now, and the memory for the next tick."""
-        robot = self.robot
+        robot, grid = self.robot, BLIND if ground is None else ground.footholds
         gait = self.possible(memory, call, sensed)
         cycle = self.cycle(gait)
-        row, target = coordinate(
+        row, out = memory.row.copy(), np.empty(self.width)
+        coordinate(
             robot.packed,
             robot.height,
             robot.stand,
@@ -204,13 +205,14 @@ class Coordinator:
             cycle.offsets,
             cycle.legs,
             self.leans,
-            BLIND if ground is None else ground.footholds,
-            memory.row,
+            *grid,
             (call.velocity[0], call.velocity[1], call.turn),
             sensed.row,
             self.dt,
+            row,
+            out,
         )
-        return MotionTarget.of_row(target), GaitMemory(row, gait)
+        return MotionTarget.of_row(out), GaitMemory(row, gait)
 
     def possible(self, memory: GaitMemory, call: SkillCall, sensed: Sensed) -> Gait:
         """The gait that is asked for, or the one in use as long as the robot is too fast for it."""
@@ -219,6 +221,11 @@ class Coordinator:
             return asked
         speed = math.hypot(sensed.velocity_w[0], sensed.velocity_w[1])
         return asked if may_start(asked, speed, self.robot.height) else now
+
+    @cached_property
+    def width(self) -> int:
+        """Numbers in the row of a `MotionTarget`."""
+        return MotionTarget.layout.size(self.robot.n)
 
     @cached_property
     def threshold(self) -> float:

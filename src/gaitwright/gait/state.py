@@ -1,6 +1,5 @@
 """What the coordinator remembers from tick to tick: a value, handed in and handed back."""
 
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -53,8 +52,7 @@ state_of = LAYOUT.views(GaitState)
 """The `GaitState` in a row, as views; for kernels too."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class GaitMemory:
+class GaitMemory(NamedTuple):
     """What is handed from tick to tick."""
 
     row: Row

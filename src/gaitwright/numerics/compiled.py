@@ -1,12 +1,14 @@
 """Kernels: functions compiled by numba, kept on disk in a folder that belongs to exactly these sources.
 
 numba checks only the file of the function it loads, not those of the functions it calls, so its own
-cache goes stale when a callee in another file changes. A folder named after all kernel files cannot.
+cache goes stale when a callee in another file changes, or a constant, or a layout. A folder named after all
+kernel files and all that they import cannot.
 """
 
 import hashlib
 import os
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -15,16 +17,28 @@ from numba import njit
 
 settings: Any = vars(numba)["config"]  # its names are set at run time
 
+IMPORTED = re.compile(rb"^from gaitwright\.([\w.]+) import", re.MULTILINE)
+
 
 def sources_digest() -> str:
-    """A name for the state of all files that hold kernels, from their names, sizes and times."""
+    """A name for the state of all files that kernels are made of, from their names, sizes and times."""
     root = Path(__file__).parents[1]
+    texts = {path.relative_to(root): path.read_bytes() for path in root.rglob("*.py")}
     digest = hashlib.sha256()
-    for path in sorted(root.rglob("*.py")):
-        text = path.read_bytes()
-        if b"@kernel" in text:
-            digest.update(f"{path.relative_to(root)} {path.stat().st_mtime_ns} {len(text)}\n".encode())
+    for path in sorted(made_of(texts)):
+        digest.update(f"{path} {(root / path).stat().st_mtime_ns} {len(texts[path])}\n".encode())
     return digest.hexdigest()[:16]
+
+
+def made_of(texts: Mapping[Path, bytes]) -> set[Path]:
+    """The files with kernels, and those that they import, and so on: what is in them is compiled in."""
+    found: set[Path] = set()
+    new = {path for path, text in texts.items() if b"@kernel" in text}
+    while new:
+        found |= new
+        names = {name.decode() for path in new for name in IMPORTED.findall(texts[path])}
+        new = {Path(*name.split(".")).with_suffix(".py") for name in names} & texts.keys() - found
+    return found
 
 
 def cache_folder() -> Path:

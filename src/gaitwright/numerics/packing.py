@@ -17,6 +17,8 @@ import numpy as np
 from jaxtyping import Float
 from numba.extending import register_jitable
 
+from gaitwright.numerics.parts import part
+
 Row = Float[np.ndarray, "numbers"]
 
 
@@ -36,15 +38,12 @@ class Column:
 
         A view, but for single numbers and truths; all are views where `raw`.
         """
-        (a, b), (c, d) = self.start, (self.start[0] + self.size[0], self.start[1] + self.size[1])
+        start = f"{self.start[0]} + {self.start[1]} * n"
         if not self.shape and not raw:
-            return f"float(row[{a} + {b} * n])"
-        part = f"row[{a} + {b} * n : {c} + {d} * n]"
-        if self.is_bool and not raw:
-            part = f"({part} > 0.5)"
-        if len(self.shape) < 2:
-            return part
-        return f"{part}.reshape({', '.join(self.shape).replace('legs', 'n')})"
+            return f"float(row[{start}])"
+        shape = ", ".join(self.shape or ("1",)).replace("legs", "n")
+        view = f"part(row, {start}, ({shape},))"
+        return f"({view} > 0.5)" if self.is_bool and not raw else view
 
 
 @dataclass(frozen=True)
@@ -147,7 +146,7 @@ def compiled_source(body: str, layout: Layout, build: Callable[..., Any] | None 
     """A small function of a row, written from a layout: its offsets are constants to the compiler."""
     constant, per_leg = layout.length
     legs = f"n = (row.size - {constant}) // {per_leg}\n    " if per_leg else ""
-    return jitable(f"def read(row):\n    {legs}{body}\n", "read", {"build": build})
+    return jitable(f"def read(row):\n    {legs}{body}\n", "read", {"build": build, "part": part})
 
 
 def jitable(source: str, name: str, space: dict[str, Any]) -> Callable[..., Any]:
@@ -163,9 +162,12 @@ class Packed:
     """A frozen dataclass that may come as one row; its fields are views of it, made when they are asked for.
 
     `of_row` makes one of a row that nobody changes any more; `row` is that of a value made field by field.
+    Of a class without slots, fields that are no numbers may be left out where they have a default.
     """
 
-    __slots__ = ("_row",)
+    __slots__ = ("row",)
+    row: Row
+    """All numbers in one row."""
     layout: ClassVar[Layout]
     readers: ClassVar[dict[str, Callable[[Row], Any]]]
 
@@ -174,27 +176,20 @@ class Packed:
         """The value in a row; `others`: fields that are no numbers."""
         value = object.__new__(cls)
         put = object.__setattr__
-        put(value, "_row", row)
+        put(value, "row", row)
         for name, other in others.items():
             put(value, name, other)
         return value
 
-    @property
-    def row(self) -> Row:
-        """All numbers in one row."""
-        try:
-            return self._row
-        except AttributeError:
-            row = self.layout.pack(getattr(self, column.name) for column in self.layout.columns)
-            object.__setattr__(self, "_row", row)
-            return row
-
     def __getattr__(self, name: str) -> Any:
-        """A field whose view was not made yet."""
+        """A field whose view was not made yet, or the row of a value made field by field."""
         reader = type(self).readers.get(name)
-        if reader is None:
+        if reader is not None:
+            value = reader(object.__getattribute__(self, "row"))
+        elif name == "row":
+            value = self.layout.pack(getattr(self, column.name) for column in self.layout.columns)
+        else:
             raise AttributeError(f"{type(self).__name__} has no {name!r}")
-        value = reader(object.__getattribute__(self, "_row"))
         object.__setattr__(self, name, value)
         return value
 
@@ -206,4 +201,7 @@ def packed(table: T) -> T:
     """Gives a dataclass below `Packed` its layout and readers."""
     table.layout = Layout.of(table)
     table.readers = {column.name: table.layout.field(column.name) for column in table.layout.columns}
+    for column in table.layout.columns:
+        if isinstance(vars(table).get(column.name), float):
+            delattr(table, column.name)  # a default on the class would hide what is in the row
     return table

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from gaitwright.locomotion import Lap
-from gaitwright.signals import MotionTarget, Route, Scan, Sensed
+from gaitwright.signals import MotionTarget, MotorCommand, Route, Scan, Sensed, SkillCall
 
 STATE = (*(column.name for column in Sensed.layout.columns), "tau")
 """The channels that `state_hash` covers."""
@@ -27,13 +27,11 @@ def widths(legs: int) -> dict[str, int]:
     """The channels of a recording and how many numbers each has; those of the situation last."""
     return {
         **{name: where.stop - where.start for name, where in Sensed.layout.slices(legs).items()},
-        "tau": 3 * legs,
-        "forces_w": 3 * legs,
-        "stance": legs,
-        "residual": 1,
+        **{name: where.stop - where.start for name, where in MotorCommand.layout.slices(legs).items()},
         "phase": 1,
-        "command": 3,
+        "stance": legs,
         "target_w": 3,
+        "command": 3,
         "skill": 1,
         "driver": 1,
         "period": 1,
@@ -69,27 +67,27 @@ class Packer:
         self.plain: bool | None = None
         self.route: Route | None = None
         self.situation = b""
+        self.call: SkillCall | None = None
+        self.numbers = 0, 0
         where = MotionTarget.layout.slices(legs)
-        self.stance, self.phase, self.command = where["stance"], where["phase"], where["command"]
-        self.place = where["position_w"]
+        self.feet = slice(where["phase"].start, where["stance"].stop)
+        self.place, self.command = where["position_w"], where["command"]
 
     def row(self, lap: Lap) -> bytes:
         """The numbers of a lap, in the order of `widths`."""
-        s, t, u, call = lap.sensed.row, lap.target.row, lap.command, lap.call
+        target, call = lap.target.row, lap.call
         if lap.route is not self.route:
             self.route, self.situation = lap.route, SITUATION_OF(*situation_numbers(lap.route))
-        skill = self.skills.setdefault(call.skill, len(self.skills))
-        driver = self.drivers.setdefault(call.driver, len(self.drivers))
+        if call is not self.call:
+            skill = self.skills.setdefault(call.skill, len(self.skills))
+            self.call, self.numbers = call, (skill, self.drivers.setdefault(call.driver, len(self.drivers)))
         pieces: tuple[Any, ...] = (
-            s,
-            u.tau,
-            u.forces_w,
-            t[self.stance],
-            ONE(u.residual),
-            t[self.phase],
-            t[self.command],
-            t[self.place],
-            FIVE(skill, driver, call.gait.period, *lap.took),
+            lap.sensed.row,
+            lap.command.row,
+            target[self.feet],
+            target[self.place],
+            target[self.command],
+            FIVE(*self.numbers, call.gait.period, *lap.took),
             self.situation,
         )
         if self.plain is None:
@@ -113,7 +111,7 @@ def doubles(number: int):
     return Struct(f"{number}d").pack
 
 
-ONE, FIVE = doubles(1), doubles(5)
+FIVE = doubles(5)
 SITUATION_OF = doubles(sum(ROUTE.values()) + len(SCAN))
 
 

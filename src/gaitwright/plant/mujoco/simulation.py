@@ -50,6 +50,35 @@ class Address:
         )
 
 
+@dataclass(frozen=True)
+class Views:
+    """A robot's numbers in MuJoCo's own arrays, which stay where they are: taken once, read at every step."""
+
+    qpos: np.ndarray
+    qvel: np.ndarray
+    velocity: np.ndarray
+    """Of the base, the first three of `qvel`."""
+    before: np.ndarray
+    """The same when the last control period began; this one is ours."""
+    joints: np.ndarray
+    rates: np.ndarray
+    """`(legs, 3)` of its hinges."""
+    motors: np.ndarray
+    """As the torques stand in a command's row."""
+    touch: np.ndarray
+    size: int
+    """Numbers in the row of a `Sensed`."""
+
+    @classmethod
+    def of(cls, data: mujoco.MjData, at: Address) -> "Views":
+        """The numbers at an address."""
+        qvel = data.qvel[at.qvel]
+        joints, rates = data.qpos[at.joints].reshape(-1, 3), data.qvel[at.rates].reshape(-1, 3)
+        motors, touch = data.ctrl[at.ctrl], data.sensordata[at.touch]
+        size = Sensed.layout.size(touch.size)
+        return cls(data.qpos[at.qpos], qvel, qvel[:3], np.zeros(3), joints, rates, motors, touch, size)
+
+
 class MujocoWorld:
     """Robots in a scene, each an obstacle to the others."""
 
@@ -57,9 +86,10 @@ class MujocoWorld:
         self.robots, self.scene, self.timestep = tuple(robots), scene, timestep
         self.model = build_world(robots, scene, timestep)
         self.data = mujoco.MjData(self.model)
+        self.mj_step = mujoco.mj_step
+        """The physics; a stopwatch may stand before it."""
         self.addresses = tuple(Address.of(self.model, placed) for placed in robots)
-        self.before = [np.zeros(3) for _ in robots]
-        """Velocities of the bases when the last control period began."""
+        self.views = tuple(Views.of(self.data, at) for at in self.addresses)
 
     def place(self, i: int, seed: int, vary: bool) -> None:
         """Puts robot `i` on its feet at its start, varied by `seed` where asked (`start_of`)."""
@@ -68,34 +98,31 @@ class MujocoWorld:
         quaternion = quaternion_of(start.rotation_wb)
         self.data.qpos[at.qpos] = np.concatenate([start.position_w, quaternion, start.q.ravel()])
         self.data.qvel[at.qvel] = 0.0
-        self.data.qvel[at.qvel.start : at.qvel.start + 3] = self.before[i] = start.velocity_w
+        self.views[i].velocity[:] = self.views[i].before[:] = start.velocity_w
 
     def tell(self, i: int, command: MotorCommand) -> None:
         """Sets the motors of robot `i`, as its joints are now."""
-        at, n = self.addresses[i], self.robots[i].robot.n
-        tau = command.tau
-        if command.kp is not None or command.kd is not None:
-            tau = command.torques(
-                self.data.qpos[at.joints].reshape(n, 3), self.data.qvel[at.rates].reshape(n, 3)
-            )
-        self.data.ctrl[at.ctrl] = tau.ravel()
+        view = self.views[i]
+        if command.kp is None and command.kd is None:
+            view.motors[:] = command.row[: view.motors.size]
+        else:
+            view.motors[:] = command.torques(view.joints, view.rates).ravel()
 
     def advance(self, commands: Sequence[MotorCommand], steps: int) -> None:
         """So many steps of the physics under a command for each robot."""
-        for i, at in enumerate(self.addresses):
-            self.before[i] = self.data.qvel[at.qvel.start : at.qvel.start + 3].copy()
+        for view in self.views:
+            view.before[:] = view.velocity
         for _ in range(steps):
             for i, command in enumerate(commands):
                 self.tell(i, command)
-            mujoco.mj_step(self.model, self.data)
+            self.mj_step(self.model, self.data)
 
     def sense(self, i: int, dt: float) -> Measured:
         """The true state of robot `i`, copied."""
-        at, data = self.addresses[i], self.data
-        row, felt = state_row(
-            data.time, data.qpos[at.qpos], data.qvel[at.qvel], data.sensordata[at.touch], self.before[i], dt
-        )
-        return Measured.of_row(row, specific_force_b=felt)
+        view, time = self.views[i], self.data.time
+        row = np.empty(view.size)
+        felt = write_state(row, time, view.qpos, view.qvel, view.touch, view.before, dt)
+        return Measured.of_row(row, time=time, specific_force_b=felt)
 
     def push(self, i: int, force_w: tuple[float, float, float]) -> None:
         """A force [N] on the centre of mass of robot `i`'s base from now on, world axes."""
@@ -109,7 +136,8 @@ class MujocoWorld:
         new.data.ctrl[:], new.data.qacc_warmstart[:] = old.ctrl, old.qacc_warmstart
         for here, there in zip(self.addresses, new.addresses, strict=True):
             new.data.xfrc_applied[there.base] = old.xfrc_applied[here.base]
-        new.before = self.before
+        for here, there in zip(self.views, new.views, strict=True):
+            there.before[:] = here.before
         return new
 
 
@@ -165,16 +193,15 @@ class MujocoPlant:
         return self.world.sense(0, self.dt)
 
 
-empty_state, state_fields = Sensed.layout.empty(), Sensed.layout.views(raw=True)
+state_fields = Sensed.layout.views(raw=True)
 
 
 @kernel
-def state_row(time, qpos, qvel, touch, before, dt):
-    """The row of a `Sensed`, and the specific force; `before`: velocity one control period ago."""
-    row = empty_state(touch.size)
+def write_state(row, time, qpos, qvel, touch, before, dt):
+    """Writes the row of a `Sensed`; the specific force. `before`: velocity one control period ago."""
     state = state_fields(row)
     state.time[0], state.load[:] = time, touch
     state.position_w[:], state.orientation_wb[:] = qpos[:3], qpos[3:7]
     state.velocity_w[:], state.angular_velocity_b[:] = qvel[:3], qvel[3:6]
     state.q[:], state.qd[:] = qpos[7:].reshape(state.q.shape), qvel[6:].reshape(state.qd.shape)
-    return row, specific_force(qpos[3:7], qvel, before, dt)
+    return specific_force(qpos[3:7], qvel, before, dt)
