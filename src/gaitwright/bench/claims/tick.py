@@ -33,13 +33,13 @@ class Row:
 ROWS = (
     Row("tick", "go2 trot, tick from sensed to torques", at_most(100.0), at_most(500.0)),
     Row("controller", "… its controller alone, target to torques"),
-    Row("live", "… the whole tick in a running simulation"),
+    Row("live", "… the whole tick in a running simulation", at_most(40.0)),
     Row("mj_step", "MuJoCo's mj_step, our Go2 world"),
     Row("rnea", "Pinocchio's RNEA"),
     Row("tsid", "TSID, tick"),
     Row("placo", "PlaCo, tick"),
 )
-RATIOS = (("controller", "tsid", at_most(0.5)), ("controller", "placo", None), ("tick", "tsid", None))
+RATIOS = (("controller", "tsid", at_most(0.3)), ("controller", "placo", None), ("tick", "tsid", None))
 """Ours over a peer's, and what is wanted of it."""
 PEERS = ("tsid", "placo")
 NOTE = (
