@@ -165,6 +165,8 @@ class Memories(NamedTuple):
     navigator: Memory
     gait: Memory
     control: Memory = None
+    controller: Controller | None = None
+    """Whose memory `control` is: another one begins anew."""
 
 
 class Mind(NamedTuple):
@@ -214,11 +216,12 @@ def think(brain: Brain, mind: Mind, measured: Measured) -> tuple[Lap, Mind]:
     call = mind.call
     target, gait = brain.coordinator.move(mind.memories.gait, call, sensed, ground)
     handed = perf_counter_ns()
-    controller = brain.controller(call.driver)
-    command, control = controller.command(target, sensed, mind.memories.control, call, ground)
+    controller, before = brain.controller(call.driver), mind.memories
+    own = before.control if before.controller is controller else None
+    command, control = controller.command(target, sensed, own, call, ground)
     done = perf_counter_ns()
     lap = Lap(sensed, mind.route, call, target, command, ((done - began) / 1e3, (done - handed) / 1e3))
-    memories = Memories(perceived, travelled, gait, control)
+    memories = Memories(perceived, travelled, gait, control, controller)
     return lap, Mind(mind.mission, ground, mind.route, call, memories, mind.looked_at, mind.chosen_at)
 
 

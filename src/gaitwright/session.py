@@ -162,10 +162,8 @@ class Session:
     def drive(self, driver: str) -> None:
         """Another driver from the next step on."""
         self.brain.controller(driver)
-        mind = self.mind
-        memories = mind.memories._replace(control=None)
-        mission, call = replace(mind.mission, driver=driver), replace(mind.call, driver=driver)
-        self.mind = mind._replace(mission=mission, call=call, memories=memories)
+        mission, call = replace(self.mind.mission, driver=driver), replace(self.mind.call, driver=driver)
+        self.mind = self.mind._replace(mission=mission, call=call)
 
     def push(self, push: Push) -> None:
         """A push that waits for its time."""

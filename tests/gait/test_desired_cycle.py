@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from gaitwright.control.inverse_dynamics import load_of, packed_load
 from gaitwright.errors import WrongUse
 from gaitwright.gait.command import path
-from gaitwright.gait.desired_cycle import DesiredCycle, Manner, desired_cycle, foothold
+from gaitwright.gait.desired_cycle import DesiredCycle, Manner, desired_cycle, stance_places
 from gaitwright.gait.leg_cycles.files import load_cycle
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle, tabulated_legs
 from gaitwright.gait.swing import AIM_BELOW, REACH_DOWN, swing_reference
@@ -172,7 +172,7 @@ def test_the_swing_is_the_one_that_the_coordinator_asks_for(cycle: LegCycle):
         share = (along % 1.0 - gait.duty) / (1.0 - gait.duty)
         for i in np.flatnonzero((share >= 0.0) & (share < REACH_DOWN)):
             before, after = (
-                foothold(robot, gait, c.command, np.full((1, 4), np.floor(along[i]) + k))[0, leg]
+                stance_places(robot, gait, c.command, np.full((1, 4), np.floor(along[i]) + k))[0, leg]
                 for k in (0, 1)
             )
             after[2] += AIM_BELOW * robot.height

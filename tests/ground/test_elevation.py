@@ -12,9 +12,7 @@ from gaitwright.ground.elevation import (
     elevation_grid,
     height_at,
     is_known,
-    may_stand,
     nearest,
-    nodes,
 )
 from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.ground.terrain import Box, Flat
@@ -47,9 +45,10 @@ def test_heights_are_the_scenes() -> None:
     x, y = rng.uniform(-3.0, 9.0, 200), rng.uniform(-3.0, 3.0, 200)
     mine = [height_at(grid, a, b) for a, b in zip(x, y, strict=True)]
     np.testing.assert_allclose(mine, scene.height(x, y), atol=0.012)
-    rows, columns = nodes(grid, x, y)
-    for a, b, row, column in zip(x, y, rows, columns, strict=True):
-        assert nearest(grid, a, b) == (row, column)
+    x_min, y_min, spacing = grid.place
+    all_y, all_x = (np.arange(n) * spacing for n in grid.heights.shape)
+    for a, b in zip(x, y, strict=True):
+        assert nearest(grid, a, b) == (np.abs(y_min + all_y - b).argmin(), np.abs(x_min + all_x - a).argmin())
 
 
 @pytest.mark.parametrize("name", ["flat", "slope:12", "cross-slope:-8"])
@@ -66,5 +65,5 @@ def test_no_foot_stands_at_the_rim_of_a_block() -> None:
     scene = Scene("one", Flat(), (Box(1.0, 0.0, 0.3, 0.6, 0.6, 0.1),), (-1.0, -2.0, 3.0, 2.0))
     grid = elevation_grid(scene, DOG)
     x, y = scene.boxes[0].corners().T
-    assert not may_stand(grid, x, y).any()
-    assert may_stand(grid, np.array([1.0, 0.2]), np.array([0.0, 0.0])).all()
+    assert all(grid.edges[nearest(grid, *corner)] == 1.0 for corner in zip(x, y, strict=True))
+    assert grid.edges[nearest(grid, 1.0, 0.0)] == grid.edges[nearest(grid, 0.2, 0.0)] == 0.0

@@ -14,7 +14,7 @@ from shapely import Point, Polygon, box, unary_union
 
 from gaitwright.errors import BadFile, WrongUse
 from gaitwright.ground.layouts import BUILDERS, CLEAR, GOAL, PASSAGE
-from gaitwright.ground.scene import BLIND_STEP, Scene, load_scene
+from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.ground.scenes_list import OFFERS, scene_names
 from gaitwright.ground.terrain import Box, Flat, HeightField, Slope, Surface, sampled
 from robots_by_hand import dog
@@ -24,6 +24,8 @@ FIELD = HeightField(-1.0, -2.0, 0.25, RANDOM.uniform(-0.1, 0.1, (17, 9)))
 SURFACES = [Flat(), Slope(0.2, -0.3), FIELD]
 DOG = dog()
 """0.29 m high."""
+LOW = 0.2 * DOG.height
+"""What it steps on without seeing it [m]."""
 
 
 # --- surfaces ------------------------------------------------------------------------------------
@@ -88,16 +90,15 @@ def test_a_scene_is_as_high_as_its_highest_thing() -> None:
 @pytest.mark.parametrize("name", ["gap:0.2", "gap:0.6"])
 def test_a_floor_made_of_blocks_is_no_obstacle_but_what_stands_on_it_is(name: str) -> None:
     scene = load_scene(name)
-    step = BLIND_STEP * DOG.height
-    assert scene.obstacles(step) == ()
+    assert scene.obstacles(LOW) == ()
     wall = Box(0.6, 1.0, 0.0, 0.2, 0.2, 0.5 + 0.3)
-    assert replace(scene, boxes=(*scene.boxes, wall)).obstacles(step) == (wall,)
+    assert replace(scene, boxes=(*scene.boxes, wall)).obstacles(LOW) == (wall,)
 
 
 def test_only_what_is_too_high_to_step_on_is_an_obstacle() -> None:
     low, high = Box(0.0, 0.0, 0.0, 1.0, 1.0, 0.05), Box(3.0, 0.0, 0.0, 1.0, 1.0, 0.07)
     scene = Scene("two", Flat(), (low, high))
-    assert scene.obstacles(BLIND_STEP * DOG.height) == (high,)
+    assert scene.obstacles(LOW) == (high,)
     assert scene.obstacles(0.5 * DOG.height) == ()
 
 
@@ -156,7 +157,7 @@ def test_stairs_go_up_and_down_by_their_step() -> None:
 @pytest.mark.parametrize("seed", range(21))
 def test_blocks_always_leave_a_way_around_the_one_in_the_way(seed: int) -> None:
     scene = load_scene("blocks", seed)
-    large = [Polygon(block.corners()) for block in scene.obstacles(BLIND_STEP * DOG.height)]
+    large = [Polygon(block.corners()) for block in scene.obstacles(LOW)]
     small = [block for block in scene.boxes if block.height <= 0.04]
     room = box(*scene.bounds)
     assert len(large) >= 2 and len(small) >= 20 and len(large) + len(small) == len(scene.boxes)

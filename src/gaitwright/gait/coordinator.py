@@ -8,11 +8,11 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
+from gaitwright.gait.clearance import is_on_ground
 from gaitwright.gait.command import advance_reference, sample, slew
 from gaitwright.gait.contact_plane import advance_ground, plane_height, plane_normal
 from gaitwright.gait.contacts import advance_legs, is_lifting, is_waited_for, shares
 from gaitwright.gait.foot_references import feet_in_base, feet_in_world, feet_reference, shank_leans
-from gaitwright.gait.footholds import is_on_ground
 from gaitwright.gait.leg_cycles.files import cycle_of
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle, tabulated_legs
 from gaitwright.gait.reach_assist import reach_assist
@@ -71,6 +71,7 @@ def coordinate(
     place,
     heights,
     edges,
+    rise,
     asked,
     seen,
     dt,
@@ -81,8 +82,8 @@ def coordinate(
 
     `numbers`: the packed robot; `height`, `stand`: of its base over ground and foot centres; `threshold`:
     load of a foot in contact [N]; `clock`: (period, duty); `cycles`: the leg cycles, a table a leg;
-    `leans`: `shank_leans`; `place`, `heights`, `edges`: the `ElevationGrid`; `asked`: forward, left, yaw
-    rate; `seen`: the row of a `Sensed`.
+    `leans`: `shank_leans`; `place`, `heights`, `edges`: the `ElevationGrid`; `rise`: the most that
+    its ground may step up or down [m]; `asked`: forward, left, yaw rate; `seen`: the row of a `Sensed`.
     """
     model, ground = unpacked(numbers), ElevationGrid(place, heights, edges)
     (period, duty), state = clock, state_of(memory)
@@ -113,7 +114,7 @@ def coordinate(
     level = upright_rotation(normal, state.reference_pose[2])
     rotation_d, omega, omega_rate = pitching(level, pitch, state.command[2])
     feet_p, feet_v, feet_a = feet_reference(
-        model, state, clock, cycles, leans, ground, level, at, v, base_v, feet_w, height
+        model, state, clock, cycles, leans, ground, rise, level, at, v, base_v, feet_w, height
     )
     base_p = add(base_p, reach_assist(model, state, rotation_d, base_p, feet_w, duty, height))
     target = target_fields(out)
@@ -191,7 +192,8 @@ class Coordinator:
         self, memory: GaitMemory, call: SkillCall, sensed: Sensed, ground: GroundMap | None = None
     ) -> tuple[MotionTarget, GaitMemory]:
         """What body, feet and joints should do now, and the memory for the next tick."""
-        robot, grid = self.robot, BLIND if ground is None else ground.footholds
+        robot = self.robot
+        grid, rise = (BLIND, robot.step_limit) if ground is None else (ground.footholds, ground.step)
         gait = self.possible(memory, call, sensed)
         cycle = self.cycle(gait)
         row, out = memory.row.copy(), np.empty(self.width)
@@ -206,6 +208,7 @@ class Coordinator:
             cycle.legs,
             self.leans,
             *grid,
+            rise,
             (call.velocity[0], call.velocity[1], call.turn),
             sensed.row,
             self.dt,

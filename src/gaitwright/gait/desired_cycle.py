@@ -234,7 +234,7 @@ def feet_motion(
     along = time[:, None] / gait.period + np.asarray(gait.offsets)
     cycle = np.floor(along)
     stance = along - cycle < gait.duty
-    start, end = (foothold(robot, gait, command, cycle + k) for k in (0, 1))
+    start, end = (stance_places(robot, gait, command, cycle + k) for k in (0, 1))
     air = max(1.0 - gait.duty, 1e-9)
     s = np.where(stance, 0.0, (along - cycle - gait.duty) / air)
     tables, rise = swing_of(robot, gait, manner)
@@ -255,7 +255,7 @@ def swing_of(
     return tables, manner.lift / peaks
 
 
-def foothold(
+def stance_places(
     robot: Robot, gait: Gait, command: Float[np.ndarray, "3"], cycle: Float[np.ndarray, "n legs"]
 ) -> Float[np.ndarray, "n legs 3"]:
     """Where each foot stands in a cycle of its own [m]: at its nominal place in the middle of stance."""

@@ -5,12 +5,13 @@ import math
 import numpy as np
 from jaxtyping import Float
 
+from gaitwright.gait.clearance import lift_needed
 from gaitwright.gait.contact_plane import plane_height
 from gaitwright.gait.contacts import swing_time
-from gaitwright.gait.footholds import STEP, FootholdRequest, choose_foothold, lift_needed
 from gaitwright.gait.state import SEARCH, SWING
 from gaitwright.gait.swing import hip_over_ground, search_reference, swing_reference, touchdown
 from gaitwright.ground.elevation import height_at, is_known
+from gaitwright.ground.footholds import OFF_PLANE, FootholdRequest, choose_foothold
 from gaitwright.model.kinematics import all_feet, angles, feet, knees
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.compiled import kernel
@@ -43,11 +44,12 @@ def feet_in_base(rotation_wb, position, feet_w):
 
 @kernel
 def feet_reference(
-    model, state, clock, cycles, leans, ground, rotation_d, position, velocity, wanted, feet_w, height
+    model, state, clock, cycles, leans, ground, step, rotation_d, position, velocity, wanted, feet_w, height
 ):
     """References `(legs, 3)` of the foot centres: position, velocity, acceleration.
 
-    Footholds and lifts of `state` are brought up to date with it.
+    `step`: the most that the ground may rise or drop at once [m]. Footholds and lifts of `state` are brought
+    up to date with it.
     """
     period, duty = clock
     n = feet_w.shape[0]
@@ -73,7 +75,8 @@ def feet_reference(
             )
             radius = model.foot_radius[leg]
             lean = turned(rotation_d, leans[leg])
-            aim(state, leg, ground, x, y, plane_height(state.slope, position, x, y), radius, lean, height)
+            plane = plane_height(state.slope, position, x, y)
+            aim(state, leg, ground, step, x, y, plane, radius, lean, height)
             raise_over(state, leg, ground, s, radius, cycles[leg], height)
             x, y, z = state.foothold[leg]
             table, lift = cycles[leg], state.lift[leg]
@@ -88,18 +91,18 @@ def feet_reference(
 
 
 @kernel
-def aim(state, leg, ground, x, y, plane, radius, lean, height):
+def aim(state, leg, ground, step, x, y, plane, radius, lean, height):
     """Sets the foothold of a swinging leg: the wished `(x, y)`, or its best neighbour on known ground.
 
     `plane`: height of the foot's centre on the plane through the last footholds.
     """
     hold = state.foothold[leg]
     if is_known(ground):
-        _, x, y = choose_foothold(
-            ground, FootholdRequest(x, y, hold[0], hold[1], plane - radius, lean, height)
-        )
+        off = OFF_PLANE * step
+        wish = FootholdRequest(x, y, hold[0], hold[1], plane - radius, off, lean, height)
+        _, x, y = choose_foothold(ground, wish)
         known = height_at(ground, x, y) + radius
-        if abs(known - plane) < STEP * height:
+        if abs(known - plane) < off:
             plane = known
     hold[0], hold[1], hold[2] = x, y, plane
 

@@ -40,26 +40,6 @@ def elevation_grid(scene: Scene, robot: Robot) -> ElevationGrid:
     return ElevationGrid(np.array([x_min, y_min, spacing]), heights, edges(heights, EDGE * robot.height))
 
 
-def may_stand(grid: ElevationGrid, x: Float[np.ndarray, "n"], y: Float[np.ndarray, "n"]) -> np.ndarray:
-    """Whether a foot may stand at places [m], beyond the grid as at its rim."""
-    row, column = nodes(grid, x, y)
-    return grid.edges[row, column] < 0.5
-
-
-def nearest_height(grid: ElevationGrid, x: Float[np.ndarray, "n"], y: Float[np.ndarray, "n"]) -> np.ndarray:
-    """Height of the nearest node [m]."""
-    row, column = nodes(grid, x, y)
-    return grid.heights[row, column]
-
-
-def nodes(grid: ElevationGrid, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Row and column of the nearest nodes."""
-    (x_min, y_min, spacing), (rows, columns) = grid.place, grid.heights.shape
-    row = np.clip(np.rint((y - y_min) / spacing), 0, rows - 1).astype(int)
-    column = np.clip(np.rint((x - x_min) / spacing), 0, columns - 1).astype(int)
-    return row, column
-
-
 def edges(heights: Float[np.ndarray, "rows columns"], step: float) -> Float[np.ndarray, "rows columns"]:
     """1 at nodes from which the ground breaks by more than `step` [m] within `MARGIN` nodes, else 0.
 

@@ -10,9 +10,6 @@ from gaitwright.errors import WrongUse
 from gaitwright.ground import layouts, scene_file, scenes_list
 from gaitwright.ground.terrain import Box, Number, Surface
 
-BLIND_STEP, SEEN_STEP = 0.2, 0.36
-"""Highest box stepped on blind, and by feet that know the ground ahead, as shares of `Robot.height`."""
-
 BATCH = 1_000_000
 """Most pairs of place and box looked at in one go: keeps memory small."""
 

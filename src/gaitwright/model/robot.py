@@ -134,6 +134,16 @@ class Robot:
         return float(np.linalg.norm(self.offset[:, 1:], axis=2).sum(axis=1).mean())
 
     @cached_property
+    def step_limit(self) -> float:
+        """Highest sudden rise or drop that the feet step over where they know the ground ahead [m].
+
+        0.36 of the height that the legs hold the base at. Measured on stairs of which more and more were too
+        high: Go2, the thesis's robot and the hexapod all still climb steps of this share and fall on higher
+        ones, though their stretched legs are 1.4 to 2 times that height.
+        """
+        return 0.36 * self.height
+
+    @cached_property
     def natural_frequency(self) -> float:
         """√(g/h) [1/s]: the robot's clock; all gains and periods scale with it (control.md)."""
         return float(np.sqrt(GRAVITY / self.height))

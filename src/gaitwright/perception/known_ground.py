@@ -5,11 +5,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from gaitwright.ground.elevation import BLIND, elevation_grid
-from gaitwright.ground.scene import BLIND_STEP, SEEN_STEP, Scene
+from gaitwright.ground.scene import Scene
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import heading, rotation
 from gaitwright.perception.scanner import Scanner
 from gaitwright.signals import GroundMap, Measured, Scan, Sensed
+
+BLIND_SHARE = 0.55
+"""A robot that does not see the ground steps over this share of its step limit."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +38,7 @@ class KnownGround:
 
 def map_of(scene: Scene, robot: Robot, sees: bool = True) -> GroundMap:
     """Everything that a robot may know of a scene; one that does not see knows what it must walk around."""
-    step = (SEEN_STEP if sees else BLIND_STEP) * robot.height
+    step = robot.step_limit if sees else BLIND_SHARE * robot.step_limit
     return GroundMap(
         scene.bounds,
         tuple(np.array(box.corners()) for box in scene.obstacles(step)),

@@ -10,7 +10,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon, Rectangle
 
-from gaitwright.ground.scene import SEEN_STEP, Scene
+from gaitwright.ground.scene import Scene
 from gaitwright.model.kinematics import feet
 from gaitwright.numerics.geometry import rotation
 from gaitwright.pictures.style import EARTH, INK, MAP, SKILLS, dress
@@ -53,7 +53,7 @@ def draw_map(ax: Axes, r: Recording, scene: Scene) -> None:
     ]
     if scene.boxes:
         handles.append(Patch(facecolor="#d9c9a8", edgecolor="#a8946c", label="low: stepped on"))
-    if scene.obstacles(SEEN_STEP * r.robot.height):
+    if scene.obstacles(r.robot.step_limit):
         handles.append(Patch(facecolor="#c9ced6", edgecolor=INK, hatch="////", label="high: walked around"))
     ax.legend(
         handles=handles, loc="upper left", ncols=len(handles), frameon=True, framealpha=0.92, edgecolor="none"
@@ -85,7 +85,7 @@ def draw_ground(ax: Axes, r: Recording, scene: Scene, bounds: tuple[float, float
         bar.ax.set_title("z [m]", fontsize=9, color=INK)
         bar.ax.tick_params(labelsize=9, colors=INK, length=2)
         bar.outline.set_visible(False)
-    obstacles = set(scene.obstacles(SEEN_STEP * r.robot.height))
+    obstacles = set(scene.obstacles(r.robot.step_limit))
     tallest = max((scene.top(box) for box in scene.boxes if box not in obstacles), default=1.0)
     for box in scene.boxes:
         if box in obstacles:

@@ -4,19 +4,17 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Float
 
-from gaitwright.ground.elevation import is_known, may_stand, nearest_height
+from gaitwright.ground.elevation import is_known
+from gaitwright.ground.footholds import last_foothold
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, heading, rotation
-from gaitwright.signals import ElevationGrid, Route, Sensed, SkillCall
+from gaitwright.signals import GroundMap, Route, Sensed, SkillCall
 from gaitwright.skills.library import find_skill, gait_of
 from gaitwright.stages import Chooser, Map, Now
 
 WIDEST = 1.1
 """A stretch without a foothold up to this long is stepped over, in body heights."""
-STEP = 0.5
-"""A step up or down to the next foothold is at most this high, in body heights."""
 ASIDE = 0.15
 """Footholds this far beside a foot's track will do, in body heights."""
 BRAKING = 0.1
@@ -35,15 +33,15 @@ class FootholdGuard:
     def choose(self, route: Route, sensed: Sensed, now: Now = None, ground: Map = None) -> SkillCall:
         """The other's choice; `stop`, with a sentence, where it leads where no foot can stand."""
         call = self.chooser.choose(route, sensed, now, ground)
-        halt = None if ground is None else self.trouble(call, route, sensed, ground.footholds)
+        halt = None if ground is None else self.trouble(call, route, sensed, ground)
         if halt is None:
             return call
         gait = gait_of(find_skill("stop", self.robot), self.robot)
         return replace(call, skill="stop", gait=gait, velocity=(0.0, 0.0), turn=0.0, because=halt, halt=halt)
 
-    def trouble(self, call: SkillCall, route: Route, sensed: Sensed, grid: ElevationGrid) -> str | None:
+    def trouble(self, call: SkillCall, route: Route, sensed: Sensed, ground: GroundMap) -> str | None:
         """Why the robot must not go on with a call, or `None`."""
-        speed = math.hypot(*call.velocity)
+        speed, grid = math.hypot(*call.velocity), ground.footholds
         if speed <= 0.0 or not is_known(grid):
             return None
         height = self.robot.height
@@ -56,38 +54,18 @@ class FootholdGuard:
         c, s = math.cos(yaw), math.sin(yaw)
         level = float(sensed.position_w[2]) - height
         for foot in self.robot.nominal_feet[:, :2] @ np.array([[c, s], [-s, c]]):
-            told = track_trouble(grid, place + foot, level, way, far, height)
-            if told:
-                return told
+            stops, last, rise = last_foothold(
+                grid, place + foot, level, way, far, ASIDE * height, ground.step, WIDEST * height, height
+            )
+            if stops:
+                what = named(rise, ground.step, height)
+                return f"no foothold ahead: {what} begins {last:.2f} m ahead of a foot"
         return None
 
 
-def track_trouble(
-    grid: ElevationGrid, start: Float[np.ndarray, "2"], level: float, way: float, far: float, height: float
-) -> str | None:
-    """What lies in the way of a foot that goes straight `way` [rad] from `start` for `far` [m], or `None`.
-
-    `level`: of the ground that the robot stands on [m].
-    """
-    spacing = float(grid.place[2])
-    along = np.arange(0.0, far, spacing)
-    ahead, beside = np.array([math.cos(way), math.sin(way)]), np.array([-math.sin(way), math.cos(way)])
-    lanes = [start + along[:, None] * ahead + k * ASIDE * height * beside for k in (0.0, 1.0, -1.0)]
-    stands = np.stack([may_stand(grid, *lane.T) for lane in lanes])
-    levels = np.stack([nearest_height(grid, *lane.T) for lane in lanes])
-    last = 0.0
-    for i, at in enumerate(along):
-        fit = stands[:, i] & (np.abs(levels[:, i] - level) < STEP * height)
-        if fit.any():
-            last, level = float(at), float(levels[int(fit.argmax()), i])
-        elif at - last > WIDEST * height:
-            rise = float(levels[0, i]) - level
-            return f"no foothold ahead: {named(rise, height)} begins {last:.2f} m ahead of a foot"
-    return None
-
-
-def named(rise: float, height: float) -> str:
-    """What ground is called that lies so much higher or lower [m]."""
-    if abs(rise) < STEP * height:
+def named(rise: float, step: float, height: float) -> str:
+    """What ground is called that lies so much higher or lower [m] for a robot that steps so high [m]."""
+    if abs(rise) <= step:
         return f"broken ground, wider than the {WIDEST * height:.2f} m that are stepped over,"
-    return f"a wall of {rise:.2f} m" if rise > 0.0 else f"a drop of {-rise:.2f} m"
+    what = f"a wall of {rise:.2f} m" if rise > 0.0 else f"a drop of {-rise:.2f} m"
+    return f"{what}, more than the {step:.2f} m that this robot steps,"

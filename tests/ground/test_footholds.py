@@ -1,4 +1,4 @@
-"""Footholds: always fit, never farther than need be, and reached without touching the ground on the way."""
+"""Footholds: always fit, never farther than need be, and the last one before what is too much is found."""
 
 import math
 
@@ -7,22 +7,17 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from gaitwright.gait.footholds import (
-    CLEAR,
-    LOOKS,
-    LOW,
-    MOST_LIFT,
+from gaitwright.ground.elevation import elevation_grid, height_at, nearest
+from gaitwright.ground.footholds import (
+    OFF_PLANE,
     SEARCHED,
     FootholdRequest,
     choose_foothold,
     is_fit,
-    is_on_ground,
-    lift_needed,
+    last_foothold,
 )
-from gaitwright.gait.leg_cycles.files import load_cycle
-from gaitwright.gait.leg_cycles.leg_cycle import tabulated
-from gaitwright.ground.elevation import BLIND, elevation_grid, height_at, nearest
-from gaitwright.ground.scene import load_scene
+from gaitwright.ground.scene import Scene, load_scene
+from gaitwright.ground.terrain import Box, Flat
 from oracles import robot_called
 
 DOG = robot_called("dog")
@@ -36,7 +31,8 @@ places = st.tuples(st.floats(-1.0, 6.0), st.floats(-1.0, 1.0))
 
 
 def wish(name: str, x: float, y: float, before: tuple[float, float], lean=(0.0, 0.0)) -> FootholdRequest:
-    return FootholdRequest(x, y, *before, float(height_at(GROUNDS[name], *before)), lean, H)
+    level = float(height_at(GROUNDS[name], *before))
+    return FootholdRequest(x, y, *before, level, OFF_PLANE * DOG.step_limit, lean, H)
 
 
 @given(names, places, st.tuples(st.floats(-0.1, 0.1), st.floats(-0.1, 0.1)))
@@ -91,24 +87,27 @@ def test_the_shank_needs_room_behind_a_step_down() -> None:
     assert found and 5.19 < x < 5.3
 
 
-@pytest.mark.parametrize("cycle", ["trot", "climb"])
-@given(x=st.floats(0.8, 4.6), way=st.floats(0.15, 0.35))
-def test_a_raised_swing_clears_the_steps(cycle: str, x: float, way: float) -> None:
-    ground, table, r = GROUNDS["stairs:0.10"], tabulated(load_cycle(cycle)), 0.02
-    start = np.array([x, 0.0, height_at(ground, x, 0.0) + r])
-    end = (x + way, 0.0, height_at(ground, x + way, 0.0) + r)
-    lift = lift_needed(ground, start, *end, r, table, H)
-    assert lift >= 1.0
-    assume(lift < MOST_LIFT / table[:, 3].max() - 1e-9)
-    for row in table[[(i * (len(table) - 1)) // LOOKS for i in range(1, LOOKS)]]:
-        if row[3] > LOW * table[:, 3].max():
-            at = start[0] + row[0] * way
-            z = start[2] + row[0] * (end[2] - start[2]) + lift * row[3] * H
-            assert z >= height_at(ground, at, 0.0) + r + CLEAR * H - 1e-2
+@given(st.floats(0.3, 0.6), st.floats(-0.5, 0.5), st.floats(0.0, 3.0))
+def test_a_track_ends_before_a_step_that_is_too_high(share: float, off: float, way: float) -> None:
+    """A wide block ahead stops a track exactly where it is higher than a step, and not far from its rim."""
+    rise, step, stride = share * H, 0.45 * H, 1.1 * H
+    assume(abs(rise - step) > 1e-6)
+    c, s = math.cos(way), math.sin(way)
+    block = Box(2.0 * c, 2.0 * s, way, 2.0, 3.0, rise)
+    ground = elevation_grid(Scene("block", Flat(), (block,), (-4.0, -4.0, 4.0, 4.0)), DOG)
+    start = np.array([0.0, 0.0]) + off * np.array([-s, c])
+    stops, last, up = last_foothold(ground, start, 0.0, way, 1.8, 0.15 * H, step, stride, H)
+    if rise > OFF_PLANE * step:
+        assert stops and 1.0 - 4.0 * ground.place[2] - 0.15 * H < last < 1.0
+    assert stops == (rise > step)
+    assert up == pytest.approx(rise if stops else 0.0)
 
 
-def test_an_edge_on_the_way_is_no_ground() -> None:
-    ground = GROUNDS["stairs:0.10"]
-    assert is_on_ground(ground, np.array([5.2, 0.0, 0.02]), 0.02, H)
-    assert not is_on_ground(ground, np.array([5.2, 0.0, 0.10]), 0.02, H)
-    assert is_on_ground(BLIND, np.array([5.2, 0.0, 9.0]), 0.02, H)
+def test_a_track_goes_over_a_gap_as_wide_as_a_stride_and_no_wider() -> None:
+    ground = elevation_grid(load_scene("gap:0.2"), DOG)
+    level = float(height_at(ground, 0.0, 0.0))
+    narrow, wide = (
+        last_foothold(ground, np.zeros(2), level, 0.0, 3.0, 0.15 * H, DOG.step_limit, stride, H)
+        for stride in (1.1 * H, 0.4 * H)
+    )
+    assert not narrow[0] and wide[0] and wide[2] < -0.2

@@ -1,33 +1,26 @@
-"""Where a foot may really stand, and how high it must be swung to get there (row J8).
+"""Where a foot may stand on known ground: one judgement, for feet that land and the guard that looks ahead.
 
 A wished foothold that is blocked (an edge, a hole, a wall) gives way to its best neighbour: the nearest
-place that is neither, with some preference for the one chosen so far, so that a foot does not waver.
+place that is neither, with some preference for the one chosen so far, so that a foot does not waver (row J8).
 """
 
 import math
 from typing import NamedTuple
 
-from gaitwright.ground.elevation import height_at, is_known, nearest
+from gaitwright.ground.elevation import height_at, nearest
 from gaitwright.numerics.compiled import kernel
 
 SEARCHED = 0.6
 """Farthest neighbour of a wished foothold, in body heights."""
 FAITH = 0.5
 """Weight of the distance from the foothold chosen so far, against that from the wished one."""
-STEP = 0.5
-"""Ground farther than this above or below the plane under the robot is no foothold, in body heights."""
+OFF_PLANE = 1.4
+"""Ground this many steps above or below the plane under the robot may be a foothold: a step, and what the
+plane lags behind the ground."""
 SHANK = 0.6
 """Up to here over the ground the shank needs room, in body heights."""
 BONE = 0.08
 """Thickness of the shank and what it should keep clear, in body heights."""
-CLEAR = 0.1
-"""Room under a swinging foot, in body heights."""
-MOST_LIFT = 0.45
-"""Highest swing over the straight line, in body heights."""
-LOOKS = 12
-"""Places looked at along the way of a foot."""
-LOW = 0.25
-"""Where a foot is lifted by less than this share of its highest, it is taken to be at its ends."""
 
 
 class FootholdRequest(NamedTuple):
@@ -38,8 +31,10 @@ class FootholdRequest(NamedTuple):
     before_x: float
     before_y: float
     """The one chosen so far [m]."""
-    plane: float
+    level: float
     """Height of the ground expected there [m]."""
+    step: float
+    """How far above or below that it may lie [m]."""
     lean: tuple
     """How far the shank leans out over the ground per height, world x, y."""
     height: float
@@ -50,7 +45,7 @@ class FootholdRequest(NamedTuple):
 def is_fit(ground, row, column, wish):
     """Whether a foot may stand on a node: no edge near, not too high or low, room for the shank."""
     z, h = ground.heights[row, column], wish.height
-    if ground.edges[row, column] > 0.5 or abs(z - wish.plane) > STEP * h:
+    if ground.edges[row, column] > 0.5 or abs(z - wish.level) > wish.step:
         return False
     spacing = ground.place[2]
     x, y = ground.place[0] + column * spacing, ground.place[1] + row * spacing
@@ -82,39 +77,27 @@ def choose_foothold(ground, wish):
 
 
 @kernel
-def lift_needed(ground, origin, x, y, z, radius, table, height):
-    """By what factor a leg cycle must be raised so that a foot clears the ground on its way.
+def last_foothold(ground, start, level, way, far, aside, step, stride, height):
+    """How far a foot comes that goes straight from place to place, and the rise that stops it.
 
-    `origin` → (x, y, z): the way of the foot's centre; `table`: the leg cycle (`gait.leg_cycles.leg_cycle`).
+    `start`: x, y; `level`: of the ground that the robot stands on; `way`: its direction [rad]; `far`: so far
+    it looks; footholds up to `aside` beside its track will do; a `stride` is the longest stretch without
+    one [m]. Gives whether something stops it, how far it is to the last foothold [m], and how much higher the
+    ground is behind it [m].
     """
-    most, peak = 1.0, table[:, 3].max()
-    if not is_known(ground) or peak <= 0.0:
-        return most
-    rows = table.shape[0]
-    for i in range(1, LOOKS):
-        k = (i * (rows - 1)) // LOOKS
-        share, up = table[k, 0], table[k, 3]
-        if up < LOW * peak:
-            continue
-        at_x, at_y = origin[0] + share * (x - origin[0]), origin[1] + share * (y - origin[1])
-        line = origin[2] + share * (z - origin[2])
-        under = highest_near(ground, at_x, at_y, x - origin[0], y - origin[1])
-        most = max(most, (under + radius + CLEAR * height - line) / (up * height))
-    return min(most, MOST_LIFT / peak)
-
-
-@kernel
-def highest_near(ground, x, y, way_x, way_y):
-    """Highest ground within two nodes of a place, along the way [m]."""
-    k = 2.0 * ground.place[2] / (math.hypot(way_x, way_y) + 1e-9)
-    dx, dy = k * way_x, k * way_y
-    ends = max(height_at(ground, x + dx, y + dy), height_at(ground, x - dx, y - dy))
-    return max(ends, height_at(ground, x, y))
-
-
-@kernel
-def is_on_ground(ground, foot, radius, height):
-    """Whether a foot that feels something is where ground is known to be: an edge on the way is none."""
-    if not is_known(ground):
-        return True
-    return foot[2] - radius - height_at(ground, foot[0], foot[1]) < CLEAR * height
+    ahead_x, ahead_y, spacing = math.cos(way), math.sin(way), ground.place[2]
+    last, allowed = 0.0, OFF_PLANE * step
+    for i in range(math.ceil(far / spacing)):
+        at, found = i * spacing, False
+        for k in (0.0, 1.0, -1.0):
+            x = start[0] + at * ahead_x - k * aside * ahead_y
+            y = start[1] + at * ahead_y + k * aside * ahead_x
+            row, column = nearest(ground, x, y)
+            wish = FootholdRequest(x, y, x, y, level, allowed, (0.0, 0.0), height)
+            if is_fit(ground, row, column, wish):
+                last, level, allowed, found = at, ground.heights[row, column], step, True
+                break
+        if not found and at - last > stride:
+            row, column = nearest(ground, start[0] + at * ahead_x, start[1] + at * ahead_y)
+            return True, last, ground.heights[row, column] - level
+    return False, last, 0.0
