@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from gaitwright.control.impedance import steering
 from gaitwright.control.inverse_dynamics import (
     ATTITUDE,
     HORIZONTAL,
@@ -118,6 +119,11 @@ def wanted(robot: Robot, target: MotionTarget, s: Sensed) -> tuple[np.ndarray, n
 def demanded(robot: Robot, target: MotionTarget, s: Sensed) -> Load:
     """What the motion asks of feet and motors."""
     return load_of(packed_load(robot, target, s))
+
+
+def steered(robot: Robot, target: MotionTarget, s: Sensed) -> np.ndarray:
+    """The torques beside the inverse dynamics `(legs, 3)`."""
+    return steering(robot.packed, moment_of(row(s, target)))
 
 
 def exact_forces(load: Load, stance: np.ndarray) -> np.ndarray:
@@ -286,7 +292,8 @@ def test_torques_belong_to_their_forces(method: str, rng: np.random.Generator) -
     assert torques.residual < LACKING, "the feet give all that is wanted"
     load = demanded(robot, target, s)
     assert (np.abs(torques.tau) < robot.tau_max).all(), "no limit in play: the law is τ = free - push f"
-    np.testing.assert_allclose(torques.tau, load.free - np.einsum("lji,li->lj", load.push, torques.forces_w))
+    free = load.free + steered(robot, target, s)
+    np.testing.assert_allclose(torques.tau, free - np.einsum("lji,li->lj", load.push, torques.forces_w))
 
 
 @pytest.mark.parametrize("name", ["go2", "thesis", "dog"])
@@ -302,7 +309,8 @@ def test_a_swinging_foot_goes_its_way_where_the_base_cannot(name: str, rng: np.r
         plain = load.free - np.einsum("lji,li->lj", load.push, torques.forces_w)
         assert torques.residual > 0.1
         errors = []
-        for tau in (torques.tau, np.clip(plain, -robot.tau_max, robot.tau_max)):
+        led = torques.tau - steered(robot, target, s)
+        for tau in (led, np.clip(plain, -robot.tau_max, robot.tau_max)):
             made = mujoco_foot_accelerations(
                 robot, *mujoco_forward(robot, s, tau, load.arm, torques.forces_w)
             )

@@ -9,7 +9,8 @@ from jaxtyping import Bool, Float
 
 from gaitwright.control.certificate import linear_status_of, status_of
 from gaitwright.control.forces import LIMITS, contact_frame, distribute, to_world, torques, unmet
-from gaitwright.control.inverse_dynamics import AS_WANTED, demand
+from gaitwright.control.impedance import steering
+from gaitwright.control.inverse_dynamics import AS_WANTED, demand, load_of
 from gaitwright.control.linear import distribute_linear
 from gaitwright.control.moments import moment_between
 from gaitwright.control.thesis_program import LinearSettings
@@ -77,12 +78,14 @@ def distributed(packed, load, moment, previous, out):
     """Writes the packed `TickResult` for a packed `Load`, by the quadratic program."""
     tau_max, weight, height = scales(packed)
     stance, normal = moment.stance, moment.normal
+    steer = steering(packed, moment)
+    load_of(load).free[:] += steer
     x, prices, code, culprit = distribute(
         load, stance, moment.load_scale, normal, previous, tau_max, weight, height
     )
     result = result_of(out)
     result.multipliers[:], result.basis[:] = prices, -1.0
-    conclude(out, packed, load, moment, x, code, culprit)
+    conclude(out, packed, load, moment, steer, x, code, culprit)
 
 
 @kernel
@@ -90,6 +93,8 @@ def distributed_linear(packed, load, moment, previous, settings, hints, out):
     """Writes the packed `TickResult` for a packed `Load`, by the linear program (point feet)."""
     tau_max, weight, height = scales(packed)
     stance, normal = moment.stance, moment.normal
+    steer = steering(packed, moment)
+    load_of(load).free[:] += steer
     shared = distribute_linear(
         load,
         stance,
@@ -107,7 +112,7 @@ def distributed_linear(packed, load, moment, previous, settings, hints, out):
     result.multipliers[:] = shared.multipliers
     result.basis[:] = shared.basis
     code, culprit = shared.code, shared.culprit
-    conclude(out, packed, load, moment, shared.x, code, culprit)
+    conclude(out, packed, load, moment, steer, shared.x, code, culprit)
 
 
 LACKING = 1e-3
@@ -115,8 +120,10 @@ LACKING = 1e-3
 
 
 @kernel
-def conclude(out, packed, load, moment, x, code, culprit):
+def conclude(out, packed, load, moment, steer, x, code, culprit):
     """Writes torques, forces and residual; where it failed, the feet that are down share the weight.
+
+    `steer`: the `steering`, which is part of the load already.
 
     What is not finite stays so in the torques, plainly: whoever watches stops the motors.
     """
@@ -131,6 +138,7 @@ def conclude(out, packed, load, moment, x, code, culprit):
     lacks = unmet(load, forces, stance, weight, height)
     if lacks > LACKING or not stance.any():
         load = demand(packed, moment, unmet_acceleration(packed, moment, load, forces))
+        load_of(load).free[:] += steer
     result.tau[:] = torques(load, forces, tau_max)
     if code == NOT_FINITE:
         result.tau[:] = np.nan
