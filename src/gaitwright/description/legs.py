@@ -17,7 +17,8 @@ from gaitwright.model.nominal_pose import LegShape
 FAR_OFF = np.array([0.6, 0.6, 0.06])
 """The base's origin is at most this far from the middle of the hips in x, y and z, per length of the legs.
 
-Heights and speeds count from it: with hips 0.14 of a leg above it a trotting robot rolls twice as much.
+Heights and speeds count from it: with hips 0.14 of a leg above it a trotting robot rolls
+twice as much.
 """
 
 
