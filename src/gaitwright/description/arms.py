@@ -66,10 +66,10 @@ def above_the_hips(limbs: list[Limb]) -> dict[int, str]:
     high = {i: limb.shape for i, limb in enumerate(limbs) if limb.hip[2] > most.level + ABOVE * most.length}
     reasons = {}
     for i, shape in high.items():
-        if shape is None or shape.yaws != most.yaws:
-            reasons[i] = "starts above the hips and is of another build than the legs"
-        elif lowest_foot(shape) > most.ground + NEARLY_DOWN * most.length:
+        if shape is not None and lowest_foot(shape) > most.ground + NEARLY_DOWN * most.length:
             reasons[i] = "starts above the hips and cannot reach the ground"
+        elif shape is None or shape.yaws != most.yaws:
+            reasons[i] = "starts above the hips and is of another build than the legs"
     return reasons
 
 
