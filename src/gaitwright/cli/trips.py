@@ -230,7 +230,8 @@ def illustrate(setting: Setting, recording: Recording, folder: Path) -> list[tup
         with working("writing the recording for Foxglove and Rerun", worth_a_line=False):
             from gaitwright.record.mcap_export import export_mcap  # noqa: PLC0415 - an extra
 
-            files.append(("for Foxglove, Rerun", str(export_mcap(recording, folder / "recording.mcap"))))
+            path = export_mcap(recording, folder / "recording.mcap", setting.scene)
+            files.append(("for Foxglove, Rerun", str(path)))
     if has("matplotlib", "the picture", "plot"):
         with working("drawing the picture", worth_a_line=False):
             from gaitwright.pictures import trip_picture  # noqa: PLC0415 - an extra, and slow to import
