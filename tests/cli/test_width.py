@@ -142,3 +142,9 @@ def test_a_name_in_a_sentence_has_at_most_200_letters(capsys: pytest.CaptureFixt
     name = "a" * 150 + "b" * 150
     remark(f"{name}: taken as it is")
     assert capsys.readouterr().err == f"{'a' * 100}…{'b' * 98}: taken as it is\n"
+
+
+def test_a_report_is_in_a_persons_words(capsys: pytest.CaptureFixture[str]):
+    words = shown(["skill", "--seconds", "0.2"], capsys)
+    assert {"computing", "control"} <= words
+    assert not {"tick", "ticks", "lap", "p99"} & words
