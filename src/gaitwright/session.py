@@ -12,33 +12,21 @@ import numpy as np
 
 from gaitwright.control.numerical import idle
 from gaitwright.errors import NoRoom, WrongUse, is_interrupt
-from gaitwright.ground.scene import Scene, load_scene
+from gaitwright.ground.scene import Scene
 from gaitwright.locomotion import Brain, Lap, Mind, think
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import heading, rotation
 from gaitwright.perception.known_ground import KnownGround
 from gaitwright.record.recording import Recorder, Recording
+from gaitwright.record.scene_of import scene_for, scene_scale  # noqa: F401 - found here by all who set up runs
 from gaitwright.signals import Measured, Mission
-from gaitwright.skills.library import REFERENCE_HEIGHT
 from gaitwright.stages import Plant, SimulatedPlant
 from gaitwright.termination import Ending, Termination
 
 DT = 0.002
 """Control period [s]: 500 Hz."""
-DOG_SIZED = 0.6
-"""Robots up to this height [m] walk in scenes as they are."""
 PUSH_LASTS = 0.1
 """How long a push lasts where nothing else is said [s]."""
-
-
-def scene_scale(robot: Robot) -> float:
-    """What the lengths of built-in scenes are multiplied by: the robot's height / 0.29 m, but for dogs."""
-    return 1.0 if robot.height <= DOG_SIZED else float(round(robot.height / REFERENCE_HEIGHT))
-
-
-def scene_for(robot: Robot, name_or_path: str, seed: int = 0) -> Scene:
-    """A scene of that name in a robot's size, or one from a file as it is."""
-    return load_scene(name_or_path, seed, scene_scale(robot))
 
 
 @dataclass(frozen=True, slots=True)

@@ -67,13 +67,14 @@ def test_a_robot_that_runs(tmp_path: Path):
     path = written(tmp_path, small_robot())
     done = checked(path)
     assert done.returncode == 0
-    assert done.stdout.strip().splitlines()[-1].startswith("mouse can stand, walk, trot")
-    assert "no torque limit is given for 12 joints" in done.stdout
+    told = " ".join(done.stdout.split())
+    assert " mouse can stand, walk, trot" in told
+    assert "no torque limit is given for 12 joints" in told
     report = json.loads(Path(f"{path}.json").read_text())
     assert report["robot"] == "mouse"
     assert report["runs"] is True
     assert {finding["kind"] for finding in report["findings"]} == {"file", "body", "motors", "trial"}
-    assert report["summary"] in done.stdout
+    assert told.endswith(report["summary"])
 
 
 def test_a_robot_too_weak_to_stand_is_exit_code_1(tmp_path: Path):

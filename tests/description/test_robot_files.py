@@ -234,7 +234,7 @@ REFUSED = {
     "leg FL: its shank has no length: knee and foot are 0 m apart": mjcf(
         legs(foot='<geom size=".02" pos="0 .1 0"/>')
     ),
-    "base_mass is not finite or not below 1e+06": mjcf(legs()).replace('mass="8"', 'mass="1e300"'),
+    "mass of the body is not finite or not below 1e+06": mjcf(legs()).replace('mass="8"', 'mass="1e300"'),
     "damping of leg FR, knee is not finite or not below 1e+06 (SI units): 1e+30": mjcf(legs()).replace(
         'name="leg1c"', 'name="leg1c" damping="1e30"'
     ),

@@ -75,6 +75,7 @@ def test_mcap_reads_back_as_ros_2_messages(recording: Recording, tmp_path: Path)
         reader = make_reader(file, decoder_factories=[DecoderFactory()])
         assert {channel.topic for channel in reader.get_summary().channels.values()} == {
             "/joint_states", "/tf", "/tf_static", "/gaitwright/changes", "/gaitwright/scan",
+            "/gaitwright/scene", "/robot_description",
         }  # fmt: skip
         decoded = [
             (m.log_time, ros) for _, _, m, ros in reader.iter_decoded_messages(topics=["/joint_states"])
@@ -88,6 +89,8 @@ def test_mcap_reads_back_as_ros_2_messages(recording: Recording, tmp_path: Path)
         "tf2_msgs/msg/TFMessage",
         "gaitwright.Changes",
         "gaitwright.Scan",
+        "foxglove.SceneUpdate",
+        "std_msgs/msg/String",
     }
     assert changes == [{"time": 0.0, "skill": "walk", "driver": "numerical"}]
     assert scans[0]["time"] == 0.0 and scans[0]["slope"] == recording["scan_slope"][0]

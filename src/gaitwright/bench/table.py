@@ -7,17 +7,22 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from rich.box import SIMPLE_HEAD
-from rich.console import Console
-from rich.table import Table
 from rich.text import Text
 
 from gaitwright.bench.machine import line
 from gaitwright.bench.measurement import Figure
 from gaitwright.files import whole
+from gaitwright.screen import Cell, Column, paragraph, table, width_of
+from gaitwright.screen import show as show_lines
 
-WIDE = 180
-"""Columns of a table that goes to a file or a pipe."""
+COLUMNS = (
+    Column("what", prose=True),
+    Column("measured", right=True),
+    Column("wanted", right=True),
+    Column("reached?"),
+    Column("starts", right=True),
+    Column(prose=True, style="dim"),
+)
 
 
 @dataclass(frozen=True)
@@ -70,45 +75,38 @@ class Result:
 def show(result: Result, to_stderr: bool) -> None:
     """Prints a table for each group, and what has to be known about it."""
     file = sys.stderr if to_stderr else sys.stdout
-    console = Console(
-        file=file, width=None if file.isatty() else WIDE, highlight=False, soft_wrap=not file.isatty()
-    )
-    console.print(Text(line(result.machine), style="dim"))
+    width = width_of(file)
+    lines: list[Cell] = [*paragraph(Text(line(result.machine), "dim"), width)]
     if result.quick:
-        console.print(
-            Text("QUICK: fewer starts and seconds than the claims are about. A look, not a result.", "yellow")
-        )
+        look = "QUICK: fewer starts and seconds than the claims are about. A look, not a result."
+        lines += paragraph(Text(look, "yellow"), width)
     measured = [section for section in result.sections if section.figures]
     for group in dict.fromkeys(section.group for section in measured):
         sections = [section for section in measured if section.group == group]
-        console.print(table_of(group, sections))
+        lines += ["", Text(group, "italic"), *table(COLUMNS, rows_of(sections), width), ""]
         for note in (section.note for section in sections if section.note):
-            console.print(Text(note, style="dim"))
-    console.print(Text(verdict(result), style="bold"))
+            lines += paragraph(Text(note, "dim"), width)
+    show_lines([*lines, *paragraph(Text(verdict(result), "bold"), width)], file)
 
 
-def table_of(group: str, sections: Sequence[Section]) -> Table:
-    """The figures of a group, claim by claim."""
-    table = Table(title=group, title_justify="left", box=SIMPLE_HEAD, pad_edge=False, header_style="bold")
-    table.add_column("what", overflow="fold")
-    table.add_column("measured", justify="right", no_wrap=True)
-    table.add_column("wanted", justify="right", no_wrap=True)
-    table.add_column("reached?", no_wrap=True)
-    table.add_column("starts", justify="right", no_wrap=True)
-    table.add_column("", style="dim", overflow="fold")
+def rows_of(sections: Sequence[Section]) -> list[tuple[Cell, ...]]:
+    """The figures of a group, an empty line between two claims."""
+    marks = {True: "green", False: "bold red", None: ""}
+    rows: list[tuple[Cell, ...]] = []
     for section in sections:
-        for figure in section.figures:
-            mark = {True: "green", False: "bold red", None: ""}[figure.reached]
-            table.add_row(
-                Text(figure.what),
+        rows += [()] if rows else []
+        rows += [
+            (
+                figure.what,
                 figure.measured_text,
                 figure.wanted_text,
-                Text(figure.reached_text, style=mark),
+                Text(figure.reached_text, marks[figure.reached]),
                 str(figure.starts),
-                Text(figure.note),
+                figure.note,
             )
-        table.add_section()
-    return table
+            for figure in section.figures
+        ]
+    return rows
 
 
 def verdict(result: Result) -> str:

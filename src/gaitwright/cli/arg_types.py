@@ -8,7 +8,7 @@ from gaitwright.errors import WrongUse, unknown
 from gaitwright.plant.names import INTEGRATORS, PLANTS
 
 DRIVERS = {
-    "numerical": "solves the robot's dynamics at every tick",
+    "numerical": "solves the robot's dynamics 500 times a second",
     "hybrid": "does so too, with skills chosen by the rules of --skillbook",
     "kinematic": "holds the joints to the angles that the motion needs, without forces",
     "programmed": "plays the joint angles of the gait back, whatever happens",

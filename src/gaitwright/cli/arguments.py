@@ -2,6 +2,7 @@
 
 import argparse
 
+from gaitwright.bench import GROUPS
 from gaitwright.cli.arg_types import (
     BOOK_TASKS,
     DRIVERS,
@@ -169,7 +170,9 @@ def add_books(parser: argparse.ArgumentParser) -> None:
 
 
 def add_bench(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("names", nargs="*", metavar="NAME", help="what to measure (everything)")
+    groups = "; ".join(f"{group}: {', '.join(claims)}" for group, claims in GROUPS.items())
+    what = f"what to measure, a claim or a group of them (everything). {groups}"
+    parser.add_argument("names", nargs="*", metavar="NAME", help=what)
     parser.add_argument("--quick", action="store_true", help="fewer repetitions: a look, not a result")
 
 

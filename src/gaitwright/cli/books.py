@@ -81,7 +81,7 @@ def tell_merge(ours: Skillbook, theirs: Skillbook, merged: Merged, args: Namespa
     show_pairs(f"{args.out} holds both", rows, to_stderr=aside)
     if merged.conflicts:
         for conflict in merged.conflicts:
-            show_prose(f"– {conflict.sentence}.", "  ", to_stderr=aside)
+            show_prose(f"– {conflict.sentence}.", 2, to_stderr=aside)
         show_pairs("", what_to_do(merged, args), to_stderr=aside)
 
 

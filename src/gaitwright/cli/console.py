@@ -1,78 +1,64 @@
 """What the user sees: tables on the standard output, progress and remarks on the standard error."""
 
 import sys
-import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from time import perf_counter
 
-from rich.box import SIMPLE_HEAD
-from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn
-from rich.table import Table
+from rich.text import Text
 
+from gaitwright.cli.sentences import cut, tell
 from gaitwright.locomotion import Lap
+from gaitwright.screen import Column, Row, paragraph, screen, show, table, width_of
 
 EVERY = 5.0
 """Where no terminal shows a moving bar, a line of progress comes this often [s]."""
 REFRESH = 0.2
 """The moving bar is drawn this often [s]."""
-WIDE = 180
-"""Columns of a table that goes to a file or a pipe."""
-PROSE = 100
-"""Letters of a line of prose."""
-
-
-def console(file=None) -> Console:
-    """A console on the standard output, or on `file`."""
-    file = file or sys.stdout
-    return Console(
-        file=file, width=None if file.isatty() else WIDE, highlight=False, soft_wrap=not file.isatty()
-    )
+NAMES = 19
+"""Columns of the names beside values, at least."""
 
 
 def remark(text: str) -> None:
-    """A line on the standard error."""
-    print(text, file=sys.stderr, flush=True)
+    """A sentence on the standard error."""
+    tell(text)
 
 
-def show_table(head: Sequence[str], rows: Iterable[Sequence[str]], right: Sequence[str] = ()) -> None:
-    """A table on the standard output; the columns in `right` are flush right."""
-    table = Table(box=SIMPLE_HEAD, pad_edge=False, header_style="bold")
-    for name in head:
-        table.add_column(
-            name, justify="right" if name in right else "left", overflow="fold", no_wrap=name in right
-        )
-    for row in rows:
-        table.add_row(*row)
-    console().print(table)
+def show_table(
+    head: Sequence[str], rows: Iterable[Row], right: Sequence[str] = (), prose: Sequence[str] = ()
+) -> None:
+    """A table on the standard output; the columns in `right` are flush right, those in `prose` may wrap."""
+    columns = [Column(name, name in right, name in prose) for name in head]
+    show(["", *table(columns, rows, width_of(sys.stdout)), ""])
 
 
 def show_pairs(title: str, pairs: Iterable[tuple[str, str]], to_stderr: bool) -> None:
     """A title, where there is one, and lines of name and value."""
-    screen = console(sys.stderr if to_stderr else sys.stdout)
-    if title:
-        screen.print(f"\n{title}", style="bold", markup=False)
-    table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2, 0, 0))
-    table.add_column(style="dim", no_wrap=True, min_width=19)
-    table.add_column(overflow="fold")
-    for pair in pairs:
-        table.add_row(*pair)
-    screen.print(table)
+    file = sys.stderr if to_stderr else sys.stdout
+    width = width_of(file)
+    heading = ["", *(Text(line.plain, "bold") for line in paragraph(cut(title), width))] if title else []
+    columns = (Column(style="dim"), Column(prose=True))
+    rows = [(f"{name:{NAMES}}", value) for name, value in pairs]
+    show([*heading, *(table(columns, rows, width, head=False) if rows else [])], file)
 
 
-def show_prose(text: str, indent: str = "", to_stderr: bool = False) -> None:
-    """A paragraph of at most `PROSE` letters a line."""
-    screen = console(sys.stderr if to_stderr else sys.stdout)
-    lines = textwrap.wrap(text, min(PROSE, screen.width), initial_indent=indent, subsequent_indent=2 * indent)
-    screen.print("\n".join(lines), markup=False)
+def show_prose(text: str, indent: int = 0, to_stderr: bool = False) -> None:
+    """A paragraph."""
+    file = sys.stderr if to_stderr else sys.stdout
+    show(paragraph(text, width_of(file), indent), file)
+
+
+def show_heading(text: str) -> None:
+    """A bold line after an empty one."""
+    show(["", Text(text, "bold")])
 
 
 @contextmanager
 def working(what: str, worth_a_line: bool = True) -> Iterator[None]:
     """Says what is being done: a spinner on a terminal, else a line where it is worth one."""
     if sys.stderr.isatty():
-        with console(sys.stderr).status(what):
+        with screen(sys.stderr).status(what):
             yield
     else:
         if worth_a_line:
@@ -95,7 +81,7 @@ class Simulating:
             )
             # Drawn by this thread alone: another one would disturb the ticks that are being timed.
             self.bar = Progress(
-                BarColumn(30), text, console=console(sys.stderr), auto_refresh=False, transient=True
+                BarColumn(30), text, console=screen(sys.stderr), auto_refresh=False, transient=True
             )
             self.bar.start()
             self.task = self.bar.add_task("", total=self.seconds, at=0.0, pace=0.0)

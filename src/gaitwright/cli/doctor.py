@@ -11,8 +11,10 @@ from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
 from pathlib import Path
+from shutil import get_terminal_size
 
 from gaitwright.cli.output import check_json, write_json
+from gaitwright.cli.sentences import between_words
 
 CORE = ("jaxtyping", "msgspec", "mujoco", "numba", "numpy", "rich", "shapely")
 """What Gaitwright cannot run without, by the names of modules and distributions."""
@@ -48,10 +50,12 @@ def run(args: Namespace) -> int:
 
 
 def show(findings: list[Finding]) -> None:
-    width = max(len(finding.what) for finding in findings)
+    """A line for each finding, broken between words; without `rich`, which may be what is missing."""
+    width, screen = max(len(finding.what) for finding in findings), get_terminal_size().columns
     for finding in findings:
         mark = "ok" if finding.fine else "MISSING" if finding.needed else "absent"
-        print(f"{mark:8}{finding.what:{width}}  {finding.found}")
+        name = f"{mark:8}{finding.what:{width}}  "
+        print("\n".join(between_words(name + finding.found, screen, " " * len(name))))
     mends = list(dict.fromkeys(finding.mend for finding in findings if finding.mend))
     if mends:
         print("\nto mend it:" if any(f.mend and f.needed for f in findings) else "\nto add what is absent:")

@@ -8,7 +8,14 @@ from importlib import import_module
 from pathlib import Path
 
 from gaitwright.cli.book_files import rulebook_of
-from gaitwright.cli.console import console, remark, show_pairs, show_prose, show_table, working
+from gaitwright.cli.console import (
+    remark,
+    show_heading,
+    show_pairs,
+    show_prose,
+    show_table,
+    working,
+)
 from gaitwright.cli.explain_text import (
     because,
     changes,
@@ -29,9 +36,10 @@ from gaitwright.knowledge.consult import Decision, consult
 from gaitwright.knowledge.explain import forest_text
 from gaitwright.knowledge.memory import Memory, remembered
 from gaitwright.knowledge.rules import Rulebook, status
+from gaitwright.screen import show
 
 RULES = ("", "rule", "status", "right", "wrong", "it …")
-MARKS = ("tree", "here", "▲ upper mark", "moved there by", "▼ lower mark", "moved there by")
+MARKS = ("tree", "here", "▲ upper mark", "▲ moved there by", "▼ lower mark", "▼ moved there by")
 
 
 def run(args: Namespace) -> int:
@@ -79,7 +87,7 @@ def tell_book(rulebook: Rulebook, path: str, aside: bool) -> None:
         for k, rule in enumerate(rulebook.rules, start=1)
     ]  # fmt: skip
     if rows:
-        show_table(RULES, rows, right=("", "right", "wrong"))
+        show_table(RULES, rows, right=("", "right", "wrong"), prose=("it …",))
 
 
 def tell_rule(rulebook: Rulebook, name: str, aside: bool) -> None:
@@ -91,7 +99,7 @@ def tell_rule(rulebook: Rulebook, name: str, aside: bool) -> None:
     show_prose(
         "▲ outside this value it may not fire; ▼ below this value it was seen right. + yes, ? grey, − no."
     )
-    console().print(f"\n{forest_text(rulebook, name)}", markup=False)
+    show(["", *forest_text(rulebook, name).split("\n")])
 
 
 def tell_history(rulebook: Rulebook, name: str, figures: dict, aside: bool) -> None:
@@ -101,7 +109,7 @@ def tell_history(rulebook: Rulebook, name: str, figures: dict, aside: bool) -> N
         return
     show_prose(f"{title(rulebook[name])}:")
     for event in events:
-        show_prose(f"{event}.", "  ")
+        show_prose(f"{event}.", 2)
 
 
 # --- what it decides -------------------------------------------------------------------------------
@@ -150,7 +158,7 @@ def tell_decision(
         [f"{change.sentence}." for _, change in different],
     )
     if marks:
-        console().print(f"\nmarks of {decision.rule}", style="bold", markup=False)
+        show_heading(f"marks of {decision.rule}")
         show_table(MARKS, marks)
 
 
@@ -173,15 +181,15 @@ def tell_situation(at: Asked) -> None:
         for (tree, value), source in zip(at.situation.items(), at.sources, strict=True)
     ]
     show_pairs("the situation", pairs, to_stderr=False)
-    console().print()
+    show([""])
 
 
 def section(head: str, sentences: list[str]) -> None:
     """A bold head and its sentences."""
     if sentences:
-        console().print(f"\n{head}", style="bold", markup=False)
+        show_heading(head)
         for sentence in sentences:
-            show_prose(sentence, "  ")
+            show_prose(sentence, 2)
 
 
 # --- the picture -----------------------------------------------------------------------------------

@@ -10,6 +10,7 @@ import re
 from typing import NamedTuple, NoReturn
 
 from gaitwright.cli.arguments import ADD
+from gaitwright.cli.sentences import between_words
 from gaitwright.errors import WrongUse, unknown
 
 
@@ -144,7 +145,8 @@ HIDDEN = ("--version",)
 """Options that no command's help shows."""
 
 EPILOG = """\
-exit codes: 0 done, 1 the robot failed, 2 wrong use, 3 a bad input file, 130 interrupted
+exit codes: 0 done, 1 the robot failed, 2 wrong use, 3 a bad input file,
+  130 interrupted
 
 examples:
   gaitwright demo
@@ -193,7 +195,7 @@ def all_parsers() -> tuple[Parser, dict[str, argparse.ArgumentParser]]:
         "gaitwright",
         description="Teaches legged robots to move, by rules you can read.",
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        formatter_class=WholeWords,
         allow_abbrev=False,
     )
     top.add_argument("--version", action=Version, nargs=0, help="show the version and exit")
@@ -216,13 +218,35 @@ def all_parsers() -> tuple[Parser, dict[str, argparse.ArgumentParser]]:
     return top, parsers
 
 
-class Wrapped(argparse.RawDescriptionHelpFormatter):
-    """Wraps the description, leaves the examples alone."""
+class WholeWords(argparse.RawDescriptionHelpFormatter):
+    """Breaks the help of options between words, never within `turn-right`."""
+
+    def _split_lines(self, text: str, width: int) -> list[str]:
+        return between_words(" ".join(text.split()), width)
+
+
+class Wrapped(WholeWords):
+    """Wraps the description too, and the examples where a shell would take them so."""
 
     def _fill_text(self, text: str, width: int, indent: str) -> str:
         if text.startswith("examples:"):
-            return super()._fill_text(text, width, indent)
-        return argparse.HelpFormatter._fill_text(self, text, width, indent)
+            return "\n".join(part for line in text.split("\n") for part in example_lines(line, width))
+        return "\n".join(between_words(" ".join(text.split()), width))
+
+
+def example_lines(example: str, width: int) -> list[str]:
+    """An example that is wider than the screen: what is said of it above, the command over several lines."""
+    if len(example) <= width:
+        return [example]
+    command, _, about = (part.rstrip() for part in example.partition("#"))
+    lines = [""]
+    for option in re.split(r" (?=--)", command):
+        if lines[-1] and len(lines[-1]) + len(option) + 3 > width:
+            lines[-1] += " \\"
+            lines.append(" " * 6 + option)
+        else:
+            lines[-1] += " " * bool(lines[-1]) + option
+    return [*([f"  #{about}"] if about else []), *lines]
 
 
 class Version(argparse.Action):

@@ -9,17 +9,20 @@ from dataclasses import asdict
 from time import perf_counter
 
 import numpy as np
+from rich.text import Text
 
 from gaitwright.assess.suitability import Finding, runs, suitability, summary
-from gaitwright.cli.console import EVERY, console, remark, show_table, working
+from gaitwright.cli.console import EVERY, remark, show_table, working
 from gaitwright.cli.output import check_json, write_json
 from gaitwright.description.load import load_robot, load_robot_and_notes
 from gaitwright.errors import BadFile
 from gaitwright.model.catalogue import ROBOTS
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.compiled import is_warm
+from gaitwright.screen import Cell, paragraph, screen, show, width_of
 
 HEAD = ("name", "legs", "mass", "height", "leg", "torque limits", "about")
+FOUND = ("what", "verdict", "found")
 NEEDED = (
     "needed: an MJCF or URDF file with one floating body and 4, 6 or 8 legs, in pairs left and right, "
     "each of three hinges and links with masses"
@@ -42,7 +45,7 @@ def list_all(args: Namespace) -> int:
     with working("loading the robots", worth_a_line=False):
         facts = [facts_of(name, about) for name, about in ROBOTS.items()]
     if args.json != "-":
-        show_table(HEAD, [row(fact) for fact in facts], right=HEAD[1:6])
+        show_table(HEAD, [row(fact) for fact in facts], right=HEAD[1:6], prose=("about",))
     write_json(args.json, json.dumps(facts, indent=2, ensure_ascii=False))
     return 0
 
@@ -83,8 +86,8 @@ def check(args: Namespace) -> int:
         findings = suitability(robot, notes, tell)
     sentence, good = summary(robot, findings), runs(findings)
     if args.json != "-":
-        show_table(("", "what", "verdict", "found"), finding_rows(findings))
-        print(sentence)
+        show_table(FOUND, finding_rows(findings), prose=FOUND[2:])
+        show(paragraph(sentence, width_of(sys.stdout)))
     report = {
         "robot": robot.name,
         "runs": good,
@@ -105,16 +108,13 @@ def found(asked: str) -> tuple[Robot, tuple[str, ...]]:
             raise BadFile(f"{error} ({NEEDED})") from error
 
 
-def finding_rows(findings: list[Finding]) -> Iterator[tuple[str, ...]]:
-    """A row for each finding, its kind before the first one of it."""
+def finding_rows(findings: list[Finding]) -> Iterator[tuple[Cell, ...]]:
+    """A row for each finding, a line with its kind before the first one of it."""
     last = None
     for finding in findings:
-        yield (
-            TITLES[finding.kind] if finding.kind != last else "",
-            finding.what,
-            finding.verdict,
-            finding.sentence,
-        )
+        if finding.kind != last:
+            yield (Text(TITLES[finding.kind], "bold"), "", "")
+        yield (f"  {finding.what}", finding.verdict, finding.sentence)
         last = finding.kind
 
 
@@ -122,7 +122,7 @@ def finding_rows(findings: list[Finding]) -> Iterator[tuple[str, ...]]:
 def told_now_and_then():
     """Something to call with what is being done: a moving line on a terminal, else a line now and then."""
     if sys.stderr.isatty():
-        with console(sys.stderr).status("") as status:
+        with screen(sys.stderr).status("") as status:
             yield status.update
         return
     spoke = perf_counter()

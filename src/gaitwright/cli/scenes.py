@@ -7,16 +7,22 @@ from gaitwright.cli.console import show_table
 from gaitwright.cli.output import check_json, write_json
 from gaitwright.ground.scenes_list import OFFERS
 
+HEAD = ("name", "about", "number after a colon")
+
 
 def run(args: Namespace) -> int:
     check_json(args.json)
     if args.json != "-":
         rows = ((name, offer.line, takes(offer)) for name, offer in OFFERS.items())
-        show_table(("name", "about", "number after a colon"), rows)
+        show_table(HEAD, rows, prose=HEAD[1:])
     facts = [{"name": name, **offer._asdict()} for name, offer in OFFERS.items()]
     write_json(args.json, json.dumps(facts, indent=2, ensure_ascii=False))
     return 0
 
 
 def takes(offer) -> str:
-    return f"{offer.takes}, {offer.low:g} to {offer.high:g} ({offer.default:g})" if offer.takes else ""
+    return (
+        f"{offer.takes}, {offer.low:g} to {offer.high:g}; {offer.default:g} if left out"
+        if offer.takes
+        else ""
+    )

@@ -29,13 +29,13 @@ def run(args: Namespace) -> int:
     aside, drawn = args.json == "-", args.plot or args.out is not None or cycle is not None
     if not aside and not cycle:
         remark(f"for {robot.name}, whose body is {robot.height:.2f} m above its feet:")
-        show_table(HEAD, [row(fact) for fact in figures["skills"]], right=HEAD[1:6])
+        show_table(HEAD, [row(fact) for fact in figures["skills"]], right=HEAD[1:6], prose=("about",))
     found = {name: faults_of(name, robot, cycle) for name in skills_with(cycle, robot)} if drawn else {}
     if cycle:
         figures["leg_cycle"] = {"name": cycle.name, "faults": as_figures(found)}
         if not aside:
             remark(f"leg cycle {cycle.name} on {robot.name}, {len(cycle.points)} points:")
-            show_table(FOUND, rows(found, robot))
+            show_table(FOUND, rows(found, robot), prose=FOUND[2:])
     if drawn and has("matplotlib", "the picture", "plot"):
         figures["picture"] = picture(args.out, robot, cycle, found)
     write_json(args.json, json.dumps(figures, indent=2, ensure_ascii=False))

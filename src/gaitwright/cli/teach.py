@@ -89,7 +89,7 @@ def offer_analogies(ledger: Ledger) -> tuple[Learned, ...]:
 def tell(schooled: Schooled, offered: list[str], right: float, seconds: float, args: Namespace) -> None:
     """What came of it; `offered`: the rules proposed by analogy, in sentences."""
     report, rules = schooled.report, schooled.rulebook.rules
-    states = ", ".join(f"{rule.name} {status(rule)}" for rule in rules)
+    states = ", ".join(f"{rule.name} ({status(rule)})" for rule in rules)
     numbers = {
         "book": args.out,
         "proposed": offered,

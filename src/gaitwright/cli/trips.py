@@ -183,9 +183,11 @@ def table_of(report: Report, wall: float, goal: bool) -> list[tuple[str, str]]:
     """The report for people; `wall` is how long the run took [s], `goal` whether there was one."""
     drivers = ", ".join(f"{name} {share:.0%}" for name, share in report.driver_share.items())
     pace = f"{report.duration_s / wall:.1f} × real time" if wall > 0 else ""
-    ticks = "; ".join(
-        f"{name} {t['median']:.0f} µs, p99 {t['p99']:.0f} µs" for name, t in report.tick_us.items()
-    )
+    paces = [
+        f"{'a control step' if name == 'lap' else f'driver {name}'} {took['median']:.0f} µs, "
+        f"99 of 100 within {took['p99']:.0f} µs"
+        for name, took in report.tick_us.items()
+    ]
     degrees = math.degrees
     arrived = [("arrived", "yes" if report.arrived else "no")] if goal else []
     return [
@@ -203,7 +205,7 @@ def table_of(report: Report, wall: float, goal: bool) -> list[tuple[str, str]]:
         ("roll, pitch (std)", f"{degrees(report.roll_std_rad):.2f}°, {degrees(report.pitch_std_rad):.2f}°"),
         ("skills", " → ".join(report.skills)),
         ("desirability", f"{report.desirability:.3f}"),
-        ("tick", ticks),
+        ("computing", "; of it ".join(paces)),
         ("simulated in", f"{wall:.1f} s, {pace}"),
     ]
 
@@ -230,7 +232,8 @@ def illustrate(setting: Setting, recording: Recording, folder: Path) -> list[tup
         with working("writing the recording for Foxglove and Rerun", worth_a_line=False):
             from gaitwright.record.mcap_export import export_mcap  # noqa: PLC0415 - an extra
 
-            files.append(("for Foxglove, Rerun", str(export_mcap(recording, folder / "recording.mcap"))))
+            path = export_mcap(recording, folder / "recording.mcap", setting.scene)
+            files.append(("for Foxglove, Rerun", str(path)))
     if has("matplotlib", "the picture", "plot"):
         with working("drawing the picture", worth_a_line=False):
             from gaitwright.pictures import trip_picture  # noqa: PLC0415 - an extra, and slow to import

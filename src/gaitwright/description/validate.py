@@ -18,12 +18,30 @@ PER_LEG = ("hip", "leg_frame", "offset", "sign", "foot_radius", "branch", "nomin
 NOT_NEGATIVE = ("armature", "damping", "friction")
 """Fields whose numbers are zero or more."""
 
+WORDS = {
+    "base_mass": "mass of the body",
+    "base_com": "centre of mass of the body",
+    "base_inertia": "inertia of the body",
+    "com": "centre of mass",
+    "q_min": "lower joint limit",
+    "q_max": "upper joint limit",
+    "tau_max": "torque limit",
+    "rate_max": "speed limit",
+    "hip": "place of the first hinge",
+    "leg_frame": "direction of the hinges",
+    "offset": "lengths of the links",
+    "foot_radius": "radius of the foot",
+    "nominal_feet": "stance",
+    "trunk": "box of the body",
+}
+"""What a person calls a field, where that is not its name."""
+
 
 def check(robot: Robot) -> None:
     """Raises `BadFile` for a number not finite, absurd or negative that cannot be, and a missing mass."""
     for what, value in named_numbers(robot):
         check_finite(what, value)
-        if what.startswith(NOT_NEGATIVE) and value.min() < 0.0:
+        if what.startswith(tuple(WORDS.get(field, field) for field in NOT_NEGATIVE)) and value.min() < 0.0:
             raise BadFile(f"{what} is {value:g}; expected 0 or more")
     if robot.base_mass <= 0.0:
         raise BadFile("the floating body has no mass")
@@ -37,11 +55,14 @@ def named_numbers(robot: Robot) -> Iterator[tuple[str, np.ndarray]]:
     for field, value in vars(robot).items():
         if field in PER_JOINT:
             for (i, leg), (j, joint) in product(enumerate(robot.legs), enumerate(HINGES)):
-                yield f"{field} of leg {leg}, {joint}", np.asarray(value[i, j])
+                yield f"{WORDS.get(field, field)} of leg {leg}, {joint}", np.asarray(value[i, j])
         elif field in PER_LEG:
-            yield from ((f"{field} of leg {leg}", np.asarray(value[i])) for i, leg in enumerate(robot.legs))
+            yield from (
+                (f"{WORDS.get(field, field)} of leg {leg}", np.asarray(value[i]))
+                for i, leg in enumerate(robot.legs)
+            )
         elif isinstance(value, np.ndarray | float):
-            yield field, np.asarray(value)
+            yield WORDS.get(field, field), np.asarray(value)
 
 
 def check_finite(what: str, value: np.ndarray) -> None:

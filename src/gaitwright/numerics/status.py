@@ -4,7 +4,7 @@ SOLVED, INFEASIBLE, UNBOUNDED, TOO_MANY_STEPS, NOT_FINITE = 0, 1, 2, 3, 4
 SENTENCES = {
     SOLVED: "solved",
     INFEASIBLE: "these feet cannot carry this load",
-    UNBOUNDED: "the force distribution has no least price",
-    TOO_MANY_STEPS: "the force distribution took too many steps",
-    NOT_FINITE: "the force distribution was given a number that is not finite",
+    UNBOUNDED: "no way to share the load over the feet is the best",
+    TOO_MANY_STEPS: "how to share the load over the feet was not found in time",
+    NOT_FINITE: "the load to be shared over the feet is not a number",
 }

@@ -13,7 +13,7 @@ COLOURS = ("#1971c2", "#2f9e44", "#e8590c")
 SMALLEST = 1e-3
 """Jumps below this are drawn as this [N]."""
 BINS = 36
-JUMP = f"jump of a foot's force from one tick to the next [N]; smaller ones at {SMALLEST:g}"
+JUMP = f"jump of a foot's force from one control step to the next [N]; smaller ones at {SMALLEST:g}"
 
 
 def jumps_picture(

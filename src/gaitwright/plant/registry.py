@@ -35,12 +35,14 @@ def make_plant(  # noqa: PLR0913 - the door to every plant; most calls name thre
     asked = {"timestep": timestep, "integrator": integrator, "refresh": refresh}
     options: dict[str, object] = {word: value for word, value in asked.items() if value is not None}
     if name == "kinematic" and options:
-        raise WrongUse(f"plant kinematic has no mechanics to step through: no {', '.join(options)}")
+        raise WrongUse(
+            f"plant kinematic has no mechanics to step through: it takes no {' or '.join(options)}"
+        )
     if name == "armstrong":
         options["check"] = check
     elif integrator is not None:
         raise WrongUse(
-            f"plant {name} integrates by itself, implicitfast; {integrator!r} goes with plant armstrong"
+            f"plant {name} steps through time in its own way; {integrator!r} goes with plant armstrong"
         )
     elif refresh is not None:
         raise WrongUse(

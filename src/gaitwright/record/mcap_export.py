@@ -1,9 +1,10 @@
 """Recording → MCAP with ROS 2 messages in CDR, which Foxglove and Rerun open as they are.
 
 Topics: `/joint_states` (sensor_msgs/JointState: angles, rates, torques), `/tf` (tf2_msgs/TFMessage: world →
-base → the links of every leg), `/tf_static` (their feet), `/gaitwright/changes` (JSON: skill and driver,
-whenever one changes), `/gaitwright/scan` (JSON: the ground ahead, whenever it looks different). Needs the
-extra `record`.
+base → the links of every leg), `/tf_static` (their feet), `/robot_description` (std_msgs/String: a URDF with
+these links and joints), `/gaitwright/scene` (foxglove.SceneUpdate: ground, boxes and the way),
+`/gaitwright/changes` (JSON: skill and driver, whenever one changes), `/gaitwright/scan` (JSON: the ground
+ahead, whenever it looks different). Needs the extra `record`.
 """
 
 import json
@@ -17,7 +18,9 @@ import numpy as np
 from mcap_ros2.writer import Writer
 
 from gaitwright.files import whole
+from gaitwright.ground.scene import Scene
 from gaitwright.model.robot import Robot
+from gaitwright.model.urdf import Names, write_urdf
 from gaitwright.numerics.geometry import quaternion_of
 from gaitwright.plant.mujoco.world import JOINTS
 from gaitwright.record.channels import SCAN
@@ -25,6 +28,8 @@ from gaitwright.record.metrics import stretches
 from gaitwright.record.npz import fitting
 from gaitwright.record.recording import Recording
 from gaitwright.record.rows import parts
+from gaitwright.record.scene_of import scene_of
+from gaitwright.record.scenery import SCHEMA, scene_update, way_update
 from gaitwright.signals import Scan
 
 RATE = 100.0
@@ -83,16 +88,54 @@ SCANS = {
 }
 
 
-def export_mcap(recording: Recording, path: str | Path) -> Path:
-    """Writes the recording as `.mcap`, thinned to 100 Hz; complete or not at all."""
+def export_mcap(recording: Recording, path: str | Path, scene: Scene | None = None) -> Path:
+    """Writes the recording as `.mcap`, thinned to 100 Hz; complete or not at all.
+
+    `scene`: where it was made, else the one that the recording names; where that is not to be had, the ground
+    is left out, and the metadata `gaitwright` says why.
+    """
     path, sound = Path(path), recording.sound()
+    facts = {"robot": recording.robot.name, "scene": recording.scene, "seed": str(recording.seed)}
+    facts |= {"stopped_because": recording.stopped_because}
     with fitting(path), whole(path) as draft, draft.open("wb") as file, Writer(file) as writer:
+        write_description(writer, sound)
+        facts |= write_scene(writer, sound, scene or scene_of(recording))
         write_changes(writer, sound)
         write_scans(writer, sound)
         write_states(writer, sound)
-        facts = {"robot": recording.robot.name, "scene": recording.scene, "seed": str(recording.seed)}
-        writer.add_metadata("gaitwright", facts | {"stopped_because": recording.stopped_because})
+        writer.add_metadata("gaitwright", facts)
     return path
+
+
+def write_description(writer: Writer, r: Recording) -> None:
+    """The robot, as what shows it wants it: a URDF with the frames and joints of the other topics."""
+    text = writer.register_msgdef("std_msgs/msg/String", "string data")
+    urdf = write_urdf(r.robot, Names(JOINTS, JOINTS), shapes=True)
+    writer.write_message("/robot_description", text, {"data": urdf}, nanoseconds(float(r.at("time", 0))))
+
+
+def write_scene(writer: Writer, r: Recording, scene: Scene | str) -> dict[str, str]:
+    """Ground, boxes and way; a sentence in place of the scene is handed back as a fact."""
+    if isinstance(scene, str):
+        return {"ground": f"left out: {scene}"}
+    raw, start = writer._writer, float(r.at("time", 0))
+    schema = raw.register_schema("foxglove.SceneUpdate", "jsonschema", json.dumps(SCHEMA).encode())
+    channel = raw.register_channel("/gaitwright/scene", "json", schema)
+    way = way_points(r)
+    for message in (scene_update(scene, start), *([way_update(scene, way, start)] if len(way) > 1 else [])):
+        raw.add_message(channel, nanoseconds(start), json.dumps(message).encode(), nanoseconds(start))
+    return {}
+
+
+def way_points(r: Recording) -> list[tuple[float, float]]:
+    """From the start over the points that the robot walked towards, each as often as it turned to it [m]."""
+    x, y, _ = r.at("position_w", 0).tolist()
+    way = [(x, y)]
+    for (next_point,) in thinned(r, "route_next"):
+        target = (float(next_point[0]), float(next_point[1]))
+        if all(map(math.isfinite, target)) and target != way[-1]:
+            way.append(target)
+    return way
 
 
 def write_states(writer: Writer, r: Recording) -> None:

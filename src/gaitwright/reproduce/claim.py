@@ -51,6 +51,8 @@ class Grid:
     rows: Sequence[Sequence[str]]
     left: int = 1
     """So many columns are flush left, the others flush right."""
+    together: int = 1
+    """So many of the others belong together: a screen that is too narrow for all does not part them."""
 
 
 @dataclass(frozen=True)

@@ -5,17 +5,16 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from rich.box import SIMPLE_HEAD
-from rich.console import Console
-from rich.table import Table
 from rich.text import Text
 
 from gaitwright.files import whole
 from gaitwright.reproduce.claim import Claim, Grid, Reproduction
+from gaitwright.screen import Cell, Column, folded, paragraph, table, width_of, wrapped
+from gaitwright.screen import show as show_lines
 
-WIDE = 180
-"""Columns of a table that goes to a file or a pipe."""
 STYLES = {"agrees": "green", "DIFFERS": "bold red", "cannot": "yellow"}
+HEADS = 9
+"""Columns of a screen that the name of a column of numbers has in any case."""
 HEAD = ("what", "the thesis", "ours", "agrees?", "")
 
 
@@ -23,37 +22,32 @@ HEAD = ("what", "the thesis", "ours", "agrees?", "")
 def show(result: Reproduction, to_stderr: bool) -> None:
     """Prints a reproduction: its claims, its grids, and how many claims agree."""
     file = sys.stderr if to_stderr else sys.stdout
-    console = Console(
-        file=file, width=None if file.isatty() else WIDE, highlight=False, soft_wrap=not file.isatty()
-    )
-    console.print(Text(f"\n{result.title}", style="bold"))
+    width = width_of(file)
+    lines: list[Cell] = ["", *paragraph(Text(result.title, "bold"), width)]
     for grid in result.grids:
-        console.print(grid_table(grid))
-    console.print(claim_table(result.claims))
-    console.print(Text(verdict(result), style="bold"))
+        lines += ["", *paragraph(Text(grid.title, "italic"), width), *grid_table(grid, width)]
+    lines += ["", *claim_table(result.claims, width), ""]
+    show_lines([*lines, *paragraph(Text(verdict(result), "bold"), width)], file)
 
 
-def grid_table(grid: Grid) -> Table:
-    """A grid of numbers."""
-    table = Table(
-        title=grid.title, title_justify="left", box=SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0)
-    )
+def grid_table(grid: Grid, width: int) -> list[Text]:
+    """A grid of numbers, long names of columns in several lines."""
+    columns = []
     for k, name in enumerate(grid.head):
-        table.add_column(name, justify="left" if k < grid.left else "right", overflow="fold")
-    for row in grid.rows:
-        table.add_row(*(Text(cell) for cell in row))
-    return table
+        wide = max(HEADS, *(len(row[k]) for row in grid.rows))
+        lines = [line.plain for line in wrapped(name, wide)]
+        columns.append(Column("\n".join(lines), right=k >= grid.left))
+    return folded(columns, grid.rows, width, grid.left, grid.together)
 
 
-def claim_table(claims: Sequence[Claim]) -> Table:
+def claim_table(claims: Sequence[Claim], width: int) -> list[Text]:
     """What the thesis says, and what we get."""
-    table = Table(box=SIMPLE_HEAD, pad_edge=False, header_style="bold")
-    for name in HEAD:
-        table.add_column(name, overflow="fold", style="dim" if not name else "", no_wrap=name == "agrees?")
-    for claim in claims:
-        mark = Text(claim.verdict, style=STYLES[claim.verdict])
-        table.add_row(Text(claim.what), Text(claim.thesis), Text(claim.ours), mark, Text(claim.because))
-    return table
+    columns = [Column(name, prose=name != "agrees?", style="" if name else "dim") for name in HEAD]
+    rows = [
+        (claim.what, claim.thesis, claim.ours, Text(claim.verdict, STYLES[claim.verdict]), claim.because)
+        for claim in claims
+    ]
+    return table(columns, rows, width)
 
 
 def verdict(result: Reproduction) -> str:

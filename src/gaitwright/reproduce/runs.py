@@ -14,6 +14,8 @@ from gaitwright.files import whole
 from gaitwright.numerics.compiled import is_warm
 from gaitwright.reproduce.claim import Reproduction, Say
 from gaitwright.reproduce.report import markdown, show, to_json, write_text
+from gaitwright.screen import paragraph, width_of
+from gaitwright.screen import show as show_lines
 
 
 def reproduce_all(names: list[str], out: str, json_path: str | None) -> int:
@@ -33,7 +35,8 @@ def reproduce_all(names: list[str], out: str, json_path: str | None) -> int:
             files = write(result, folder)
         results.append(result)
         show(result, to_stderr)
-        print(f"written: {', '.join(files)}", file=sys.stderr if to_stderr else sys.stdout, flush=True)
+        file = sys.stderr if to_stderr else sys.stdout
+        show_lines(paragraph(f"written: {', '.join(files)}", width_of(file)), file)
     if to_stderr:
         print(to_json(results))
     elif json_path is not None:

@@ -161,4 +161,4 @@ def grid(ours: np.ndarray, off: np.ndarray) -> Grid:
                     f"{off[row, leg, column]:+.6f}{wrong}",
                 ]
             rows.append(cells)
-    return Grid("joint angles [rad]", head, rows, left=2)
+    return Grid("joint angles [rad]", head, rows, left=2, together=3)

@@ -223,7 +223,7 @@ def grid(ours: Ours) -> Grid:
                 if (at, LEGS_6_2[line]) == (row, leg):
                     cells[2 + column] = f"{digits(TABLE_6_2[at, line, column])} misprint"
             rows.append(cells)
-    return Grid("joint torques [N·m], in the thesis's sense", head, rows, left=2)
+    return Grid("joint torques [N·m], in the thesis's sense", head, rows, left=2, together=3)
 
 
 def digits(torque: float) -> str:

@@ -15,9 +15,9 @@ import numpy as np
 from gaitwright.bench.evidence.moments import LiveTrot, Moment
 from gaitwright.bench.peers.client import Measured, Peer
 from gaitwright.bench.peers.tick_protocol import rotation
-from gaitwright.bench.peers.urdf import write_urdf
 from gaitwright.locomotion import Brain
 from gaitwright.model.robot import Robot
+from gaitwright.model.urdf import write_urdf
 
 Times = dict[str, np.ndarray]
 """Name → µs of each tick."""

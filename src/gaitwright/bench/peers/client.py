@@ -17,8 +17,8 @@ import numpy as np
 
 from gaitwright.bench.peers.environment import PeerUnavailable, peer_python
 from gaitwright.bench.peers.script import Script
-from gaitwright.bench.peers.urdf import write_urdf
 from gaitwright.model.robot import Robot
+from gaitwright.model.urdf import write_urdf
 
 START_TIMEOUT_S = 60.0
 ROUND_TIMEOUT_S = 120.0

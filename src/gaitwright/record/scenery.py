@@ -1,0 +1,168 @@
+"""The scene of a recording, as things that Foxglove shows: the ground as triangles, boxes, and the way.
+
+The messages are those that Foxglove publishes the schema of, `foxglove.SceneUpdate` in JSON.
+"""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float
+
+from gaitwright.ground.scene import Scene
+from gaitwright.ground.terrain import Box, Flat, HeightField, Slope, sampled
+from gaitwright.numerics.geometry import yaw_quaternion
+
+MOST_NODES = 160_000
+"""A finer grid of heights is shown by every second node, or third, and so on."""
+SAMPLE = 0.05
+"""Least spacing of the grid for surfaces that have none [m]."""
+GROUND, BOX, WAY = (0.62, 0.63, 0.60, 1.0), (0.80, 0.62, 0.38, 1.0), (0.13, 0.47, 0.71, 1.0)
+"""Colours: red, green, blue, opacity."""
+
+
+def scene_update(scene: Scene, seconds: float) -> dict[str, Any]:
+    """Ground and boxes of a scene, there from a time on [s]."""
+    boxes = [cube(scene, box) for box in scene.boxes]
+    entities = [entity("ground", seconds, triangles=[ground(scene)])]
+    return update(entities + ([entity("boxes", seconds, cubes=boxes)] if boxes else []))
+
+
+def way_update(scene: Scene, points: Sequence[tuple[float, float]], seconds: float) -> dict[str, Any]:
+    """A way over points on the ground [m], with a ball at its end."""
+    places = [point(x, y, float(scene.height(x, y)) + 0.02) for x, y in points]
+    line = {"type": 0, "pose": pose(), "thickness": 0.02, "scale_invariant": False, "points": places}
+    ball = {"pose": pose(places[-1]), "size": point(0.1, 0.1, 0.1), "color": colour(WAY)}
+    line |= {"color": colour(WAY), "colors": [], "indices": []}
+    return update([entity("way", seconds, lines=[line], spheres=[ball])])
+
+
+def ground(scene: Scene) -> dict[str, Any]:
+    """The surface: two triangles for each cell of its grid, the very ones that feet meet unless thinned."""
+    x, y, z = grid(scene)
+    rows, columns = z.shape
+    first = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
+    last = first + columns + 1
+    corners = np.column_stack([first, first + 1, last, first, last, first + columns])
+    across, along = np.meshgrid(x, y)
+    nodes = np.column_stack([across.ravel(), along.ravel(), z.ravel()]).round(4).tolist()  # 0.1 mm
+    return {
+        "pose": pose(),
+        "points": [point(*node) for node in nodes],
+        "color": colour(GROUND),
+        "colors": [],
+        "indices": corners.ravel().tolist(),
+    }
+
+
+def grid(scene: Scene) -> tuple[Float[np.ndarray, " columns"], Float[np.ndarray, " rows"], np.ndarray]:
+    """Nodes along x and y, and heights (rows along y) [m]."""
+    x_min, y_min, x_max, y_max = scene.bounds
+    if isinstance(scene.surface, Flat | Slope):
+        x, y = np.array([x_min, x_max]), np.array([y_min, y_max])
+        return x, y, np.asarray(scene.surface.height(x[None, :], y[:, None]))
+    field = scene.surface
+    if not isinstance(field, HeightField):
+        spacing = max(SAMPLE, math.sqrt((x_max - x_min) * (y_max - y_min) / MOST_NODES))
+        field = sampled(field, scene.bounds, spacing)
+    step = math.ceil(math.sqrt(max(1.0, field.heights.size / MOST_NODES)))
+    rows, columns = (np.unique([*range(0, count, step), count - 1]) for count in field.heights.shape)
+    x, y = field.x_min + field.spacing * columns, field.y_min + field.spacing * rows
+    return x, y, field.heights[np.ix_(rows, columns)]
+
+
+def cube(scene: Scene, box: Box) -> dict[str, Any]:
+    """A box, on uneven ground let into it so that no gap opens below."""
+    depth = box.height + (0.0 if isinstance(scene.surface, Flat) else max(box.lx, box.ly))
+    centre = point(box.x, box.y, scene.top(box) - depth / 2)
+    return {
+        "pose": pose(centre, yaw_quaternion(box.yaw)),
+        "size": point(box.lx, box.ly, depth),
+        "color": colour(BOX),
+    }
+
+
+# --- the parts of a message ------------------------------------------------------------------------
+KINDS = ("arrows", "cubes", "spheres", "cylinders", "lines", "triangles", "texts", "models")
+
+
+def update(entities: list[dict[str, Any]]) -> dict[str, Any]:
+    return {"deletions": [], "entities": entities}
+
+
+def entity(name: str, seconds: float, **shapes: list[dict[str, Any]]) -> dict[str, Any]:
+    """Shapes in the world, which stay."""
+    whole = math.floor(seconds)
+    return {
+        "timestamp": {"sec": whole, "nsec": min(999_999_999, round((seconds - whole) * 1e9))},
+        "frame_id": "world",
+        "id": name,
+        "lifetime": {"sec": 0, "nsec": 0},
+        "frame_locked": False,
+        "metadata": [],
+        **{kind: shapes.get(kind, []) for kind in KINDS},
+    }
+
+
+def pose(
+    place: dict[str, float] | None = None, turn: Sequence[float] | np.ndarray = (1.0, 0.0, 0.0, 0.0)
+) -> dict:
+    """A place and a turn (w, x, y, z)."""
+    w, x, y, z = map(float, turn)
+    return {"position": place or point(0.0, 0.0, 0.0), "orientation": {"x": x, "y": y, "z": z, "w": w}}
+
+
+def point(x: float, y: float, z: float) -> dict[str, float]:
+    return {"x": x, "y": y, "z": z}
+
+
+def colour(rgba: tuple[float, float, float, float]) -> dict[str, float]:
+    return dict(zip("rgba", rgba, strict=True))
+
+
+# --- the schema ------------------------------------------------------------------------------------
+def _object(title: str, **properties: Any) -> dict[str, Any]:
+    return {"title": title, "type": "object", "properties": properties, "required": list(properties)}
+
+
+def _list(items: dict[str, Any]) -> dict[str, Any]:
+    return {"type": "array", "items": items}
+
+
+def _shape(title: str, **properties: Any) -> dict[str, Any]:
+    return _object(f"foxglove.{title}Primitive", pose=POSE, **properties, color=COLOUR)
+
+
+NUMBER, WHOLE, TEXT = {"type": "number"}, {"type": "integer", "minimum": 0}, {"type": "string"}
+TIME = _object("time", sec=WHOLE, nsec=WHOLE | {"maximum": 999_999_999})
+VECTOR = _object("foxglove.Vector3", x=NUMBER, y=NUMBER, z=NUMBER)
+QUATERNION = _object("foxglove.Quaternion", x=NUMBER, y=NUMBER, z=NUMBER, w=NUMBER)
+POSE = _object("foxglove.Pose", position=VECTOR, orientation=QUATERNION)
+COLOUR = _object("foxglove.Color", r=NUMBER, g=NUMBER, b=NUMBER, a=NUMBER)
+MANY = {"points": _list(VECTOR), "colors": _list(COLOUR), "indices": _list(WHOLE)}
+SCHEMA = _object(
+    "foxglove.SceneUpdate",
+    deletions=_list(_object("foxglove.SceneEntityDeletion", timestamp=TIME, type=WHOLE, id=TEXT)),
+    entities=_list(
+        _object(
+            "foxglove.SceneEntity",
+            timestamp=TIME,
+            frame_id=TEXT,
+            id=TEXT,
+            lifetime=TIME | {"title": "duration"},
+            frame_locked={"type": "boolean"},
+            metadata=_list(_object("foxglove.KeyValuePair", key=TEXT, value=TEXT)),
+            **{kind: _list({"type": "object"}) for kind in KINDS}
+            | {
+                "cubes": _list(_shape("Cube", size=VECTOR)),
+                "spheres": _list(_shape("Sphere", size=VECTOR)),
+                "triangles": _list(_shape("TriangleList", **MANY)),
+                "lines": _list(
+                    _shape("Line", type=WHOLE, thickness=NUMBER, scale_invariant={"type": "boolean"}, **MANY)
+                ),
+            },
+        )
+    ),
+)
+"""Of a message: every part that we write, by Foxglove's names."""
