@@ -89,6 +89,7 @@ def check(args: Namespace) -> int:
         "robot": robot.name,
         "runs": good,
         "summary": sentence,
+        "notes": list(notes),
         "findings": [asdict(finding) for finding in findings],
     }
     write_json(args.json, json.dumps(report, indent=2, ensure_ascii=False))

@@ -10,8 +10,7 @@ from pathlib import Path
 
 import msgspec
 
-from gaitwright.description.derive import derive
-from gaitwright.description.mujoco_model import compiled
+from gaitwright.description.reading import read_robot
 from gaitwright.errors import BadFile
 from gaitwright.model.robot import lists_of
 
@@ -25,7 +24,7 @@ def main(path: Path) -> int:
     """Prints the robot in `path`, or why it is refused."""
     limit()
     try:
-        robot, notes = derive(compiled(path), path.stem)
+        robot, notes = read_robot(path)
     except BadFile as error:
         sys.stdout.buffer.write(msgspec.json.encode({"error": str(error)}))
         return BadFile.exit_code

@@ -50,7 +50,7 @@ def derive(m: mujoco.MjModel, name: str) -> tuple[Robot, tuple[str, ...]]:
     numbers = stacked(shapes) | stacked([leg for _, leg in parts])
     mass, com, inertia = merged(m, legs.data, legs.owner == BASE, axes_of(legs), origin_of(legs))
     total = mass + numbers["mass"].sum()
-    numbers["tau_max"], notes = with_torque_limits(legs.names, shapes, numbers["tau_max"], total)
+    numbers["tau_max"], of_torques = with_torque_limits(legs.names, shapes, numbers["tau_max"], total)
     robot = Robot(
         name=name,
         legs=legs.names,
@@ -61,7 +61,7 @@ def derive(m: mujoco.MjModel, name: str) -> tuple[Robot, tuple[str, ...]]:
         **numbers,
     )
     check(robot)
-    return robot, notes + outside_limits(robot, shapes)
+    return robot, legs.notes + of_torques + outside_limits(robot, shapes)
 
 
 def stacked(legs: list) -> dict[str, np.ndarray]:

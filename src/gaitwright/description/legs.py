@@ -35,6 +35,8 @@ class Legs(NamedTuple):
     """Per body: the leg joint that moves it, `BASE`, or `ELSEWHERE` for what is not the robot."""
     data: mujoco.MjData
     """Kinematics at zero leg angles, all other joints locked at home."""
+    notes: tuple[str, ...] = ()
+    """What was taken for granted in finding them, a sentence each."""
 
 
 BASE, ELSEWHERE = -1, -2

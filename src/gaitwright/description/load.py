@@ -10,8 +10,7 @@ from pathlib import Path
 import msgspec
 
 from gaitwright.description.child import CPU_SECONDS, MEMORY_BYTES
-from gaitwright.description.derive import derive
-from gaitwright.description.mujoco_model import compiled
+from gaitwright.description.reading import read_robot
 from gaitwright.errors import BadFile, unknown
 from gaitwright.model.catalogue import robot_file, robot_names
 from gaitwright.model.robot import Robot, robot_of
@@ -56,7 +55,7 @@ def load_robot_and_notes(name_or_path: str | Path) -> tuple[Robot, tuple[str, ..
 
 def built_in(name: str) -> tuple[Robot, tuple[str, ...]]:
     """A robot of the catalogue."""
-    return derive(compiled(robot_file(name)), name)
+    return read_robot(robot_file(name))
 
 
 def from_file(path: Path) -> tuple[Robot, tuple[str, ...]]:

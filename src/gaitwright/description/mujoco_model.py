@@ -14,6 +14,14 @@ MESH_SUFFIXES = (".obj", ".stl", ".msh")
 
 def compiled(path: Path) -> mujoco.MjModel:
     """The model in an MJCF or URDF file. Raises `BadFile`, without the file's name."""
+    return read_model(path)[0]
+
+
+def read_model(path: Path) -> tuple[mujoco.MjModel, tuple[str, ...]]:
+    """The model in an MJCF or URDF file, and a sentence about each thing that had to be mended.
+
+    Raises `BadFile`, without the file's name.
+    """
     tree = read_tree(path)
     text = ET.tostring(tree, encoding="unicode")
     try:
@@ -24,7 +32,7 @@ def compiled(path: Path) -> mujoco.MjModel:
         let_float(spec)
     drop_meshes(spec, path.parent)
     try:
-        return spec.compile()
+        return spec.compile(), ()
     except (ValueError, mujoco.FatalError) as error:
         raise refused(error) from error
 
