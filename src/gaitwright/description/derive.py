@@ -7,7 +7,8 @@ import mujoco
 import numpy as np
 
 from gaitwright.description.feet import Foot, find_foot, lowest, required, solid
-from gaitwright.description.legs import BASE, Legs, find_legs, home_pose, to_body
+from gaitwright.description.leg_shape import leg_frame, shape_of
+from gaitwright.description.legs import BASE, Legs, find_legs, home_pose
 from gaitwright.description.validate import check, check_finite
 from gaitwright.errors import BadFile
 from gaitwright.model import nominal_pose as stance
@@ -16,12 +17,17 @@ from gaitwright.model.nominal_pose import LegShape
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY
 
-AXES_TOLERANCE = 1e-3
-"""Largest deviation [rad] of the hinges from: second square to the first, third parallel to the second."""
 BELLY = 0.2
 """The trunk's box reaches at most this far below the lowest hip, per length of the stretched leg."""
 SHORTEST_LINK = 1e-6
 """A thigh or shank must be longer than this [m]."""
+
+
+class Posture(NamedTuple):
+    """How a leg stands: where its foot is, base frame [m], and its branch."""
+
+    place: np.ndarray
+    branch: tuple[int, int]
 
 
 class LegBody(NamedTuple):
@@ -45,10 +51,10 @@ def derive(m: mujoco.MjModel, name: str) -> tuple[Robot, tuple[str, ...]]:
     Raises `BadFile` with what is wrong, without the file's name.
     """
     legs = find_legs(m)
-    parts = [derive_leg(m, legs, i) for i in range(len(legs.names))]
-    shapes = [shape for shape, _ in parts]
-    numbers = stacked(shapes) | stacked([leg for _, leg in parts])
-    mass, com, inertia = merged(m, legs.data, legs.owner == BASE, axes_of(legs), origin_of(legs))
+    feet, shapes, postures = stood(m, legs)
+    parts = [leg_body(m, legs, i, feet[i], postures[i]) for i in range(len(legs.names))]
+    numbers = stacked(shapes) | stacked(parts)
+    mass, com, inertia = merged(m, legs.data, legs.owner == BASE, *legs.frame)
     total = mass + numbers["mass"].sum()
     numbers["tau_max"], of_torques = with_torque_limits(legs.names, shapes, numbers["tau_max"], total)
     robot = Robot(
@@ -69,46 +75,70 @@ def stacked(legs: list) -> dict[str, np.ndarray]:
     return {field: np.array([getattr(leg, field) for leg in legs]) for field in legs[0]._fields}
 
 
-def axes_of(legs: Legs) -> np.ndarray:
-    """Rotation that takes base components to world ones, in the zero pose."""
-    return legs.data.xmat[legs.base].reshape(3, 3)
+# --- the legs --------------------------------------------------------------------------------------
+def stood(m: mujoco.MjModel, legs: Legs) -> tuple[list[Foot], list[LegShape], list[Posture]]:
+    """Foot, shape and nominal posture of each leg."""
+    feet = [foot_of(m, legs, i) for i in range(len(legs.names))]
+    bare = shapes_of(m, legs, feet)
+    postures = nominal_postures(m, legs, bare)
+    feet = [
+        foot if not len(foot.points) else lowered(foot, shape, posture, legs)
+        for foot, shape, posture in zip(feet, bare, postures, strict=True)
+    ]
+    shapes = shapes_of(m, legs, feet)
+    return feet, shapes, nominal_postures(m, legs, shapes)
 
 
-def origin_of(legs: Legs) -> np.ndarray:
-    """Origin of the base in the world, in the zero pose [m]."""
-    return legs.data.xpos[legs.base]
-
-
-# --- one leg ---------------------------------------------------------------------------------------
-def derive_leg(m: mujoco.MjModel, legs: Legs, i: int) -> tuple[LegShape, LegBody]:
-    """All numbers of leg `i`."""
-    d, joints, name = legs.data, legs.joints[i], legs.names[i]
-    frame, sign = leg_frame(d.xaxis[joints], name)
-    anchors = d.xanchor[joints]
+def foot_of(m: mujoco.MjModel, legs: Legs, i: int) -> Foot:
+    """The foot of leg `i`. Raises `BadFile` where there is none or a hinge lies nowhere."""
+    joints, name = legs.joints[i], legs.names[i]
+    anchors = legs.data.xanchor[joints]
     for joint, anchor in zip(HINGES, anchors, strict=True):
         check_finite(f"the place of leg {name}, {joint},", anchor)
-    foot = required(find_foot(m, d, np.flatnonzero(legs.owner == joints[2]), anchors[2]), name)
-    limited = m.jnt_limited[joints].astype(bool)[:, None]
-    q_min, q_max = np.where(limited, m.jnt_range[joints], (-math.pi, math.pi)).T
-    bare = LegShape(
-        hip=to_body(d, legs.base, anchors[0]),
-        leg_frame=axes_of(legs).T @ frame,
-        offset=offsets(anchors, foot, frame),
-        sign=sign,
-        q_min=q_min,
-        q_max=q_max,
-    )
+    last = np.flatnonzero(legs.owner == joints[2])
+    return required(find_foot(m, legs.data, last, anchors[2]), name)
+
+
+def shapes_of(m: mujoco.MjModel, legs: Legs, feet: list[Foot]) -> list[LegShape]:
+    """Legs that end in these feet."""
+    named = zip(legs.joints, feet, legs.names, strict=True)
+    return [shape_of(m, legs.data, joints, foot, legs.frame, name) for joints, foot, name in named]
+
+
+def lowered(foot: Foot, leg: LegShape, posture: Posture, legs: Legs) -> Foot:
+    """A foot guessed from a surface, now that it is known which side of it is down."""
+    frame = legs.frame.axes @ leg.leg_frame
+    down = frame @ stance.down_in_shank(leg, stance.branch_angles(leg, posture.place)[posture.branch])
+    return lowest(foot, down, frame[:, 1], float(np.linalg.norm(leg.offset[2])))
+
+
+def nominal_postures(m: mujoco.MjModel, legs: Legs, shapes: list[LegShape]) -> list[Posture]:
+    """Where the feet stand, and how the legs bend. Raises `BadFile` where a leg's lengths do not let it."""
+    for leg, name in zip(shapes, legs.names, strict=True):
+        check_links(leg, name)
+    places = [stance.nominal_foot(leg) for leg in shapes]
     home = home_pose(m)
-    q_home = None if home is None else home[m.jnt_qposadr[joints]]
-    place, branch = posture(bare, q_home, name)
-    if len(foot.points):
-        down = frame @ stance.down_in_shank(bare, stance.branch_angles(bare, place)[branch])
-        foot = lowest(foot, down, frame[:, 1], float(np.linalg.norm(bare.offset[2])))
-    shape = bare._replace(offset=offsets(anchors, foot, frame))
-    place, branch = posture(shape, q_home, name)
+    homes = [None if home is None else home[m.jnt_qposadr[joints]] for joints in legs.joints]
+    postures = []
+    for name, place, branch in zip(
+        legs.names, places, stance.nominal_branches(shapes, places, homes), strict=True
+    ):
+        if branch is None:
+            raise BadFile(
+                f"leg {name} cannot stand: no posture brings its foot to {place.round(3).tolist()} m"
+            )
+        postures.append(Posture(place, branch))
+    return postures
+
+
+def leg_body(m: mujoco.MjModel, legs: Legs, i: int, foot: Foot, posture: Posture) -> LegBody:
+    """The other numbers of leg `i`."""
+    d, joints = legs.data, legs.joints[i]
+    frame, _ = leg_frame(d.xaxis[joints], legs.frame, legs.names[i])
+    anchors = d.xanchor[joints]
     links = [merged(m, d, legs.owner == j, frame, anchor) for j, anchor in zip(joints, anchors, strict=True)]
     dofs = m.jnt_dofadr[joints]
-    return shape, LegBody(
+    return LegBody(
         mass=np.array([link[0] for link in links]),
         com=np.array([link[1] for link in links]),
         inertia=np.array([link[2] for link in links]),
@@ -117,18 +147,13 @@ def derive_leg(m: mujoco.MjModel, legs: Legs, i: int) -> tuple[LegShape, LegBody
         friction=m.dof_frictionloss[dofs],
         tau_max=np.array([torque_limit(m, int(j)) for j in joints]),
         foot_radius=foot.radius,
-        branch=branch,
-        nominal_feet=place,
+        branch=posture.branch,
+        nominal_feet=posture.place,
     )
 
 
-def offsets(anchors: np.ndarray, foot: Foot, frame: np.ndarray) -> np.ndarray:
-    """Rows hinge 1 → hinge 2 → hinge 3 → foot in the leg frame [m], from world points."""
-    return np.diff(np.vstack([anchors, foot.centre]), axis=0) @ frame
-
-
-def posture(leg: LegShape, q_home: np.ndarray | None, name: str) -> tuple[np.ndarray, tuple[int, int]]:
-    """Nominal foothold and branch of a leg. Raises `BadFile` where its lengths do not let it stand."""
+def check_links(leg: LegShape, name: str) -> None:
+    """Raises `BadFile` where a thigh or shank has no length."""
     for row, link, ends in ((1, "thigh", "hip 2 and knee"), (2, "shank", "knee and foot")):
         length = float(np.hypot(leg.offset[row, 0], leg.offset[row, 2]))
         if not length > SHORTEST_LINK:
@@ -136,29 +161,6 @@ def posture(leg: LegShape, q_home: np.ndarray | None, name: str) -> tuple[np.nda
                 f"leg {name}: its {link} has no length: {ends} are {length:.3g} m apart, seen along the axis "
                 f"of the knee; expected more than {SHORTEST_LINK:g} m"
             )
-    place = stance.nominal_foot(leg)
-    branch = stance.nominal_branch(leg, place, q_home)
-    if branch is None:
-        raise BadFile(f"leg {name} cannot stand: no posture brings its foot to {place.round(3).tolist()} m")
-    return place, branch
-
-
-def leg_frame(axes: np.ndarray, name: str) -> tuple[np.ndarray, float]:
-    """Orthonormal frame on the first two axes of a leg (rows of `axes`, world), and the sign of the third."""
-    first, second, third = axes
-    off_square = math.asin(min(1.0, abs(float(first @ second))))
-    off_parallel = math.asin(min(1.0, float(np.linalg.norm(np.cross(second, third)))))
-    if off_square > AXES_TOLERANCE:
-        raise BadFile(
-            f"leg {name}: its second hinge is {math.degrees(off_square):.2f}° from square to the first"
-        )
-    if off_parallel > AXES_TOLERANCE:
-        raise BadFile(
-            f"leg {name}: its third hinge is {math.degrees(off_parallel):.2f}° from parallel to the second"
-        )
-    y = second - (second @ first) * first
-    y /= np.linalg.norm(y)
-    return np.column_stack([first, y, np.cross(first, y)]), math.copysign(1.0, float(second @ third))
 
 
 def merged(m, d, bodies: np.ndarray, axes: np.ndarray, origin: np.ndarray):
@@ -258,7 +260,7 @@ def box_corners(m: mujoco.MjModel, legs: Legs, geom: int) -> np.ndarray:
     d = legs.data
     centre, half = m.geom_aabb[geom].reshape(2, 3)
     corners = centre + half * np.array(np.meshgrid(*[(-1.0, 1.0)] * 3)).reshape(3, 8).T
-    return to_body(d, legs.base, d.geom_xpos[geom] + corners @ d.geom_xmat[geom].reshape(3, 3).T)
+    return legs.frame.points(d.geom_xpos[geom] + corners @ d.geom_xmat[geom].reshape(3, 3).T)
 
 
 def outside_limits(robot: Robot, shapes: list[LegShape]) -> tuple[str, ...]:

@@ -1,20 +1,21 @@
 """A compiled MuJoCo model → its legs: which hinges and bodies belong to which leg (row R2)."""
 
+import math
 from typing import NamedTuple
 
 import mujoco
 import numpy as np
 
+from gaitwright.description.arms import sorted_out
+from gaitwright.description.feet import find_foot
+from gaitwright.description.heading import LEG_NAMES, Heading, Limb
+from gaitwright.description.leg_shape import Frame, shape_of
+from gaitwright.description.validate import ABSURD
 from gaitwright.errors import BadFile
+from gaitwright.model.nominal_pose import LegShape
 
-MIDLINE = 1e-3
-"""A chain of three hinges this close to the middle plane [m] is a neck or an arm, not a leg."""
-SIX_NAMES = ("FL", "FR", "ML", "MR", "RL", "RR")
-LEG_NAMES = {
-    4: ("FL", "FR", "RL", "RR"),
-    6: SIX_NAMES,
-    8: ("FL", "FR", "M1L", "M1R", "M2L", "M2R", "RL", "RR"),
-}
+OFF = 0.15
+"""The base's origin is at most this far from the middle of the hips, per length of the stretched legs."""
 
 
 class Chain(NamedTuple):
@@ -25,7 +26,7 @@ class Chain(NamedTuple):
 
 
 class Legs(NamedTuple):
-    """The floating body, its legs in order, and the pose in which they are at zero angles."""
+    """The floating body, its legs in order, the pose in which they are at zero angles, and the base frame."""
 
     base: int
     names: tuple[str, ...]
@@ -35,6 +36,8 @@ class Legs(NamedTuple):
     """Per body: the leg joint that moves it, `BASE`, or `ELSEWHERE` for what is not the robot."""
     data: mujoco.MjData
     """Kinematics at zero leg angles, all other joints locked at home."""
+    frame: Frame
+    """The base frame: the floating body's own, or turned and moved to where its legs are."""
     notes: tuple[str, ...] = ()
     """What was taken for granted in finding them, a sentence each."""
 
@@ -50,17 +53,65 @@ def find_legs(m: mujoco.MjModel) -> Legs:
     chains = {base: limbs(m, base) for base in bases}
     base = max(bases, key=lambda b: (len(three_hinges(m, chains[b])), m.body_subtreemass[b]))
     joints = np.array(three_hinges(m, chains[base]), dtype=int).reshape(-1, 3)
-    data = pose_at_zero(m, joints)
-    anchors = to_body(data, base, data.xanchor[joints[:, 0]])
-    beside = np.abs(anchors[:, 1]) > MIDLINE
-    joints, anchors = joints[beside], anchors[beside]
     if len(joints) < 4:
         raise BadFile(
             f"{len(joints)} legs of three hinges where 4, 6 or 8 are expected; {told(m, chains[base])}"
         )
-    order = in_order(anchors)
-    joints = joints[order]
-    return Legs(base, LEG_NAMES[len(joints)], joints, owners(m, base, joints), data)
+    found = read_limbs(m, base, joints)
+    kept, way, notes = sorted_out(found)
+    found, joints = [found[kept[i]] for i in way.order], joints[kept][way.order]
+    data = pose_at_zero(m, joints)
+    frame, moves = framed(found, file_frame(data, base), way)
+    names = LEG_NAMES[len(joints)]
+    return Legs(base, names, joints, owners(m, base, joints), data, frame, notes + moves)
+
+
+def read_limbs(m: mujoco.MjModel, base: int, joints: np.ndarray) -> list[Limb]:
+    """Limbs `(limbs, 3)` of joints in the axes of the file, each with its shape if it has one of a leg."""
+    data, owner = pose_at_zero(m, joints), owners(m, base, joints)
+    frame = file_frame(data, base)
+    hips = frame.points(data.xanchor[joints[:, 0]])
+    shapes = [shape_if_any(m, data, owner, row, frame) for row in joints]
+    names = [m.joint(int(row[0])).name for row in joints]
+    return [Limb(name, hip, shape) for name, hip, shape in zip(names, hips, shapes, strict=True)]
+
+
+def shape_if_any(m, data, owner: np.ndarray, joints: np.ndarray, frame: Frame) -> LegShape | None:
+    """The shape of a limb as far as it can be a leg's; what is wrong with one is told once it is one."""
+    if not (np.abs(data.xanchor[joints]) < ABSURD).all():
+        return None
+    foot = find_foot(m, data, np.flatnonzero(owner == joints[2]), data.xanchor[joints[2]])
+    if foot is None:
+        return None
+    try:
+        shape = shape_of(m, data, joints, foot, frame, "")
+    except BadFile:
+        return None
+    return shape if shape.shortest > 0.0 else None
+
+
+def file_frame(data: mujoco.MjData, base: int) -> Frame:
+    """The frame of the floating body as the file has it."""
+    return Frame(data.xmat[base].reshape(3, 3), data.xpos[base])
+
+
+def framed(limbs: list[Limb], frame: Frame, way: Heading) -> tuple[Frame, tuple[str, ...]]:
+    """The base frame turned so that x is forward and moved to the hips where it lies off, and sentences."""
+    notes = []
+    lengths = [limb.shape.stretched for limb in limbs if limb.shape is not None]
+    middle = np.mean([limb.hip for limb in limbs], axis=0)
+    if lengths and np.abs(middle).max() > OFF * float(np.median(lengths)):
+        frame = frame._replace(origin=frame.origin + frame.axes @ middle)
+        x, y, z = middle
+        notes.append(
+            f"the middle of the hips is at ({x:.3g}, {y:.3g}, {z:.3g}) m in the file: the base's origin is "
+            "moved there"
+        )
+    if way.turn:
+        c, s = math.cos(way.turn), math.sin(way.turn)
+        frame = frame._replace(axes=frame.axes @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]))
+        notes.append(f"forward is {way.words}, {way.why}: the robot is turned so that forward is x")
+    return frame, tuple(notes)
 
 
 def floating_bodies(m: mujoco.MjModel) -> list[int]:
@@ -130,22 +181,6 @@ def home_pose(m: mujoco.MjModel) -> np.ndarray | None:
     """Joint positions of the keyframe called `home`, if there is one."""
     key = mujoco.mj_name2id(m, mujoco.mjtObj.mjOBJ_KEY, "home")
     return m.key_qpos[key].copy() if key >= 0 else None
-
-
-def to_body(data: mujoco.MjData, body: int, points: np.ndarray) -> np.ndarray:
-    """World points in the axes of a body."""
-    return (points - data.xpos[body]) @ data.xmat[body].reshape(3, 3)
-
-
-def in_order(anchors: np.ndarray) -> np.ndarray:
-    """Indices of the legs in pairs from front to rear, left first."""
-    left, right = np.flatnonzero(anchors[:, 1] > 0.0), np.flatnonzero(anchors[:, 1] < 0.0)
-    if len(left) != len(right) or len(anchors) not in LEG_NAMES:
-        raise BadFile(
-            f"{len(left)} legs on the left (y > 0) and {len(right)} on the right; expected 2, 3 or 4 pairs"
-        )
-    front_to_rear = [side[np.argsort(-anchors[side, 0], kind="stable")] for side in (left, right)]
-    return np.column_stack(front_to_rear).ravel()
 
 
 def owners(m: mujoco.MjModel, base: int, joints: np.ndarray) -> np.ndarray:

@@ -24,6 +24,8 @@ STANDING = 0.2
 """A pose whose foot is less below the hip than this, per length of the stretched leg, does not stand."""
 BENT = 0.1
 """A pose shows a branch where the next one is farther than this [rad]: bent knees, foot off the axis."""
+LEANING = 0.1
+"""Thighs or shanks whose ends are farther apart than this, per length of the stretched leg, lean two ways."""
 
 UP, BACK, NONE = np.array([0.0, 0.0, 1.0]), np.array([-1.0, 0.0, 0.0]), np.zeros(3)
 
@@ -47,6 +49,11 @@ class LegShape(NamedTuple):
     def stretched(self) -> float:
         """Length [m] of thigh and shank together, in the plane in which the knee bends."""
         return float(np.hypot(self.offset[1:, 0], self.offset[1:, 2]).sum())
+
+    @property
+    def shortest(self) -> float:
+        """Length [m] of the shorter one of thigh and shank, in that plane."""
+        return float(np.hypot(self.offset[1:, 0], self.offset[1:, 2]).min())
 
     def margin(self, q: Float[np.ndarray, "3"]) -> float:
         """Distance [rad] of joint angles from the nearest limit; negative outside."""
@@ -91,6 +98,75 @@ def nominal_branch(
     choices = branch_angles(leg, foot)
     shown = None if q_home is None else branch_of(leg, q_home)
     return shown if shown in choices else best_branch(leg, choices)
+
+
+def nominal_branches(
+    legs: list[LegShape], feet: list[np.ndarray], homes: list[np.ndarray | None]
+) -> list[tuple[int, int] | None]:
+    """The branch of each leg of a robot as `nominal_branch` has it, legs in pairs from front to rear.
+
+    Where a rear leg is the mirror image of the front one, and no pose shows how they stand, its knee is too.
+    """
+    chosen = [nominal_branch(leg, foot, q) for leg, foot, q in zip(legs, feet, homes, strict=True)]
+    shown = [q is not None and branch_of(leg, q) is not None for leg, q in zip(legs, homes, strict=True)]
+    for front, rear in ((0, len(legs) - 2), (1, len(legs) - 1)):
+        if mirrored(legs[front], legs[rear]) and not shown[front] and not shown[rear]:
+            both = mirrored_branches((legs[front], legs[rear]), (feet[front], feet[rear]))
+            chosen[front], chosen[rear] = both or (chosen[front], chosen[rear])
+    return chosen
+
+
+def mirrored(front: LegShape, rear: LegShape) -> bool:
+    """Whether a rear leg that abducts is the front one in a mirror across, rather than the same further back.
+
+    Told by where thigh and shank lead at zero angles; a straight or vertical leg is no sign of it.
+    """
+    if front.yaws or rear.yaws:
+        return False
+    size = 0.5 * (front.stretched + rear.stretched)
+    ahead, behind = ((leg.offset[1:] @ leg.leg_frame.T)[:, 0] / size for leg in (front, rear))
+    apart = float(np.abs(ahead - behind).max())
+    return apart > LEANING and float(np.abs(ahead + behind).max()) < 0.5 * apart
+
+
+def mirrored_branches(
+    legs: tuple[LegShape, LegShape], feet: tuple[np.ndarray, np.ndarray]
+) -> tuple[tuple[int, int], tuple[int, int]] | None:
+    """Branches of a front and a rear leg whose knees are images of each other: the better leg's own and its
+    image. `None` where both would be nearer to their limits than each leg for itself.
+    """
+    angles = [branch_angles(leg, foot) for leg, foot in zip(legs, feet, strict=True)]
+    best = [best_branch(leg, choices) for leg, choices in zip(legs, angles, strict=True)]
+    if best[0] is None or best[1] is None:
+        return None
+    ways = [
+        (best[0], image(knee_at(legs[0], angles[0][best[0]]), legs[1], angles[1])),
+        (image(knee_at(legs[1], angles[1][best[1]]), legs[0], angles[0]), best[1]),
+    ]
+
+    def merit(way) -> tuple[float, float]:
+        q = [choices[branch] for choices, branch in zip(angles, way, strict=True)]
+        comfort = min(min(leg.margin(x), COMFORT) for leg, x in zip(legs, q, strict=True))
+        return round(comfort, 6), -round(float(sum(x @ x for x in q)), 6)
+
+    chosen = max(ways, key=merit)
+    return chosen if merit(chosen)[0] >= merit(best)[0] else None
+
+
+def image(knee: Float[np.ndarray, "3"], leg: LegShape, choices: dict[tuple[int, int], np.ndarray]):
+    """The branch whose knee is nearest to the image of another leg's in a mirror across."""
+    place = knee * (-1.0, 1.0, 1.0)
+
+    def distance(branch: tuple[int, int]) -> tuple[float, float]:
+        q = choices[branch]
+        return round(float(np.linalg.norm(knee_at(leg, q) - place)), 6), float(q @ q)
+
+    return min(choices, key=distance)
+
+
+def knee_at(leg: LegShape, q: Float[np.ndarray, "3"]) -> Float[np.ndarray, "3"]:
+    """The knee from the first hinge, base axes [m]."""
+    return leg.leg_frame @ np.array(foot_in_leg(q, np.vstack([leg.offset[:2], NONE]), leg.sign))
 
 
 def best_branch(leg: LegShape, choices: dict[tuple[int, int], np.ndarray]) -> tuple[int, int] | None:
