@@ -145,7 +145,8 @@ def of_tip(tree: JointTree, joint: int, above: float, aside: Aside) -> str | Non
     if m.joint(joint).name in aside.coupled:
         return COUPLED
     driven = {int(j) for j in m.actuator_trnid[:, 0]}
-    idle = m.jnt_stiffness[joint] > 0.0 or (driven and joint not in driven)
+    undriven = bool(driven) and joint not in driven and not aside.loops
+    idle = m.jnt_stiffness[joint] > 0.0 or undriven
     short = tree.reach(joint, tree.d.xanchor[joint]) <= SHORT * above
     return TOE if idle or short else None
 
