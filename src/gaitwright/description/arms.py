@@ -74,12 +74,10 @@ def unlike_the_others(limbs: list[Limb]) -> set[int]:
 
     def is_like(limb: Limb) -> bool:
         shape = limb.shape
-        return (
-            shape is not None
-            and shape.yaws == yaws
-            and length / ALIKE <= shape.stretched <= length * ALIKE
-            and abs(limb.hip[2] - level) <= ABOVE * length
-        )
+        if shape is None or shape.yaws != yaws:
+            return False
+        as_long = length / ALIKE <= shape.stretched <= length * ALIKE
+        return as_long and bool(abs(limb.hip[2] - level) <= ABOVE * length)
 
     return {i for i, limb in enumerate(limbs) if not is_like(limb)}
 

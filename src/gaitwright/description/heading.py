@@ -157,9 +157,11 @@ def as_written(limbs: list[Limb]) -> Heading:
 
 
 def merit(limbs: list[Limb], places: np.ndarray, way: Heading) -> tuple[bool, bool, float, float]:
-    """How well a way suits: legs within their limits, not wider than long, little turned."""
+    """How well a way suits: legs within their limits, not wider than long if that is easy, little turned."""
     length, width = np.ptp(seen_from(places, way.turn), axis=0)
-    return slack(limbs, way.turn) >= 0.0, bool(width <= WIDE * length), -round(abs(way.turn), 6), way.turn
+    room = slack(limbs, way.turn)
+    easily_long = bool(width <= WIDE * length) and (way.turn == 0.0 or room >= stance.COMFORT)
+    return room >= 0.0, easily_long, -round(abs(way.turn), 6), way.turn
 
 
 def slack(limbs: list[Limb], turn: float) -> float:

@@ -14,8 +14,11 @@ from gaitwright.description.validate import ABSURD
 from gaitwright.errors import BadFile
 from gaitwright.model.nominal_pose import LegShape
 
-OFF = 0.15
-"""The base's origin is at most this far from the middle of the hips, per length of the stretched legs."""
+FAR_OFF = np.array([0.6, 0.6, 0.06])
+"""The base's origin is at most this far from the middle of the hips in x, y and z, per length of the legs.
+
+Heights and speeds count from it: with hips 0.14 of a leg above it a trotting robot already rolls twice as much.
+"""
 
 
 class Chain(NamedTuple):
@@ -100,7 +103,7 @@ def framed(limbs: list[Limb], frame: Frame, way: Heading) -> tuple[Frame, tuple[
     notes = []
     lengths = [limb.shape.stretched for limb in limbs if limb.shape is not None]
     middle = np.mean([limb.hip for limb in limbs], axis=0)
-    if lengths and np.abs(middle).max() > OFF * float(np.median(lengths)):
+    if lengths and (np.abs(middle) > FAR_OFF * np.median(lengths)).any():
         frame = frame._replace(origin=frame.origin + frame.axes @ middle)
         x, y, z = middle
         notes.append(
