@@ -373,6 +373,45 @@ def test_a_trunk_of_two_parts_is_locked(tmp_path):
     assert robot.base_mass == pytest.approx(9.0)
 
 
+def test_a_base_on_links_that_slide_in_the_plane_floats(tmp_path):
+    """Links without mass between a world and the trunk, as files for navigation have them."""
+    above, parent = '<link name="odom"/>', "odom"
+    for child, kind, axis in (
+        ("x", "prismatic", "1 0 0"),
+        ("y", "prismatic", "0 1 0"),
+        ("trunk", "continuous", "0 0 1"),
+    ):
+        above += "" if child == "trunk" else f'<link name="{child}"/>'
+        above += joint(f"to_{child}", kind, parent, child, "0 0 0", f'<axis xyz="{axis}"/>{LIMIT}')
+        parent = child
+    robot, notes = read(tmp_path, urdf(more=above))
+    plain, _ = read(tmp_path, urdf())
+    assert notes == "the joints of the trunk 'to_trunk', 'to_y', 'to_x' are locked as modelled"
+    assert same(robot, plain)
+
+
+def test_arms_and_springs_of_joints_are_told(tmp_path):
+    arm, parent = "", "trunk"
+    for i in range(4):
+        arm += link(f"arm{i}", 0.2, "1e-4 1e-4 1e-4")
+        arm += joint(f"turn{i}", "revolute", parent, f"arm{i}", "0 0 0.1", f'<axis xyz="0 1 0"/>{LIMIT}')
+        parent = f"arm{i}"
+    _, notes = read(tmp_path, urdf(more=arm))
+    assert notes == "the limb of 4 joints from 'turn0' is no leg: its joints are locked"
+    _, notes = read(
+        tmp_path,
+        mjcf(f'<body name="trunk"><freejoint/>{TRUNK}</body>').replace(
+            'joint name="b_j3"', 'joint name="b_j3" stiffness="2"'
+        ),
+    )
+    assert "the springs at the joints 'b_j3' are left out" in notes
+
+
+def test_knees_that_slide_are_named(tmp_path):
+    with pytest.raises(BadFile, match=r"3 joints \(1 of them no hinge\) from 'a_j1'"):
+        read(tmp_path, urdf().replace('_j3" type="revolute"', '_j3" type="prismatic"'))
+
+
 def test_driven_ankles_are_no_toes(tmp_path):
     shin = link("{n}4", 0.2, "2e-4 2e-4 2e-4", "0 0 -0.1") + joint(
         "{n}_k2", "revolute", "{n}3", "{n}4", "0 0 -0.2", f'<axis xyz="0 1 0"/>{LIMIT}'

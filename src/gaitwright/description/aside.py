@@ -23,7 +23,9 @@ def aside_of(root: ET.Element) -> Aside:
         rates={
             joint.get("name", ""): rate for joint in root.findall("joint") if (rate := rate_of(joint)) > 0.0
         },
-        loops=tuple(ends(loop) for kind in ("connect", "weld") for loop in active(root, kind)),
+        loops=tuple(
+            both for kind in ("connect", "weld") for loop in active(root, kind) if (both := ends(loop))
+        ),
         coupled=(
             *(joint.get("name", "") for joint in root.findall("joint") if joint.find("mimic") is not None),
             *(pair.get("joint1", "") for pair in active(root, "joint") if pair.get("joint2")),
@@ -48,9 +50,9 @@ def active(root: ET.Element, kind: str) -> list[ET.Element]:
 
 
 def ends(loop: ET.Element) -> str:
-    """The two bodies or sites that an equality holds together."""
+    """The two bodies or sites that an equality holds together; empty for one that is held in the world."""
     both = [loop.get(f"{what}{i}") for i in (1, 2) for what in ("body", "site") if loop.get(f"{what}{i}")]
-    return " and ".join(map(repr, both)) or repr(loop.get("name", "?"))
+    return " and ".join(map(repr, both)) if len(both) > 1 else ""
 
 
 def notes_of(aside: Aside) -> tuple[str, ...]:

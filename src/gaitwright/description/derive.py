@@ -6,7 +6,7 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from gaitwright.description.doubts import impossible_inertias, unbalanced
+from gaitwright.description.doubts import impossible_inertias, left_out, unbalanced
 from gaitwright.description.feet import Foot, find_foot, lowest, required, solid
 from gaitwright.description.leg_shape import leg_frame, shape_of
 from gaitwright.description.legs import BASE, Legs, find_legs, home_pose
@@ -78,7 +78,7 @@ def derive(
         *impossible_inertias(m, legs, robot),
         *unbalanced(m, legs, robot),
     )
-    return robot, legs.notes + of_torques + of_rates + doubts
+    return robot, legs.notes + left_out(m, legs) + of_torques + of_rates + doubts
 
 
 def stacked(legs: list) -> dict[str, np.ndarray]:

@@ -4,13 +4,16 @@ import mujoco
 import numpy as np
 
 from gaitwright.description.aside import listed
-from gaitwright.description.legs import BASE, ELSEWHERE, Legs
+from gaitwright.description.legs import BASE, ELSEWHERE, Legs, limbs, three_hinges
 from gaitwright.model.kinematics import angles
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.polygon import hull, margins
 
 WEIGHTY = 1e-3
 """A link of less than this share of the mass is taken to weigh so much, where its inertia is doubted."""
+
+MOST_LIMBS = 6
+"""So many limbs that are no legs are told of."""
 
 
 def impossible_inertias(m: mujoco.MjModel, legs: Legs, robot: Robot) -> tuple[str, ...]:
@@ -56,4 +59,18 @@ def unbalanced(m: mujoco.MjModel, legs: Legs, robot: Robot) -> tuple[str, ...]:
     return (
         f"the centre of mass is {outside:.2f} m outside the feet: {m.body(int(mine[worst])).name!r} "
         f"({masses[worst]:.3g} of {masses.sum():.3g} kg) has its own at ({x:.2f}, {y:.2f}, {z:.2f}) m",
+    )
+
+
+def left_out(m: mujoco.MjModel, legs: Legs) -> tuple[str, ...]:
+    """Sentences about limbs that are no legs, and about springs at the joints of legs."""
+    others = [
+        f"the limb of {len(chain.joints)} joints from {m.joint(chain.joints[0]).name!r}"
+        for chain in limbs(m, legs.base)
+        if not set(chain.joints) & set(legs.joints.ravel().tolist()) and not three_hinges(m, [chain])
+    ]
+    springs = [repr(m.joint(int(j)).name) for j in legs.joints.ravel() if m.jnt_stiffness[j] > 0.0]
+    return (
+        *(f"{other} is no leg: its joints are locked" for other in others[:MOST_LIMBS]),
+        *((f"the springs at the joints {listed(springs)} are left out",) if springs else ()),
     )

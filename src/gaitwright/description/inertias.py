@@ -33,8 +33,7 @@ def mend_inertias(spec: mujoco.MjSpec) -> tuple[str, ...]:
     """
     if spec.compiler.inertiafromgeom == 1:
         return ()
-    bodies = spec.bodies[1:]
-    given = [body for body in bodies if body.explicitinertial]
+    given = [body for body in spec.bodies[1:] if body.explicitinertial]
     total = sum(body.mass for body in given)
     told: dict[str, list[str]] = {}
     for body in given:
@@ -42,12 +41,37 @@ def mend_inertias(spec: mujoco.MjSpec) -> tuple[str, ...]:
             raise BadFile(f"the mass of {body.name!r} is {body.mass:g} kg; expected 0 or more")
         change = mended(body, NEGLIGIBLE * total, bool(spec.compiler.balanceinertia))
         told.setdefault(change, []).append(body.name)
-    for body in bodies:
-        if body.joints and total > 0.0 and not any(has_mass(spec, part) for part in rigid(body)):
-            put_ball(body, NEGLIGIBLE * total)
-            told.setdefault(WEIGHTLESS, []).append(body.name)
     told.pop("", None)
-    return tuple(change.format(links=named(names), mass=NEGLIGIBLE * total) for change, names in told.items())
+    return tuple(change.format(links=named(names)) for change, names in told.items())
+
+
+def give_masses(spec: mujoco.MjSpec) -> list:
+    """Gives a little mass to bodies that move on their own and have none, so that the model compiles."""
+    total = sum(body.mass for body in spec.bodies[1:] if body.explicitinertial)
+    given = []
+    for body in spec.bodies[1:] if total > 0.0 else ():
+        if body.joints and not any(has_mass(spec, part) for part in rigid(body)):
+            put_ball(body, NEGLIGIBLE * total)
+            given.append(body)
+    return given
+
+
+def take_masses(spec: mujoco.MjSpec, given: list) -> tuple[str, ...]:
+    """Takes the masses away from bodies that now are fixed to others; a sentence about those that are not."""
+    kept = [body for body in given if not any(has_mass(spec, part) for part in fixed_to(body, given))]
+    mass = max((body.mass for body in kept), default=0.0)
+    for body in given:
+        if body not in kept:
+            body.mass, body.inertia = 0.0, np.zeros(3)
+    return (WEIGHTLESS.format(links=named([body.name for body in kept]), mass=mass),) if kept else ()
+
+
+def fixed_to(body, given: list) -> list:
+    """What moves as one with a body, but for those in `given`."""
+    top = body
+    while not top.joints and top.parent.parent is not None:
+        top = top.parent
+    return [part for part in rigid(top) if part not in given]
 
 
 def mended(body, negligible: float, balanced: bool) -> str:

@@ -17,7 +17,8 @@ from gaitwright.model.nominal_pose import LegShape
 FAR_OFF = np.array([0.6, 0.6, 0.06])
 """The base's origin is at most this far from the middle of the hips in x, y and z, per length of the legs.
 
-Heights and speeds count from it: with hips 0.14 of a leg above it a trotting robot already rolls twice as much.
+Heights and speeds count from it: with hips 0.14 of a leg above it a trotting robot rolls
+twice as much.
 """
 
 
@@ -162,10 +163,12 @@ def told(m: mujoco.MjModel, chains: list[Chain]) -> str:
     """What limbs there are, for an error."""
     if not chains:
         return "the floating body has no joints"
-    kinds = [
-        f"{len(c.joints)} joints{' with a fork' if c.branched else ''} from {m.joint(c.joints[0]).name!r}"
-        for c in chains
-    ]
+    hinge = mujoco.mjtJoint.mjJNT_HINGE
+    kinds = []
+    for joints, branched in chains:
+        others = sum(m.jnt_type[j] != hinge for j in joints)
+        what = f"{len(joints)} joints{f' ({others} of them no hinge)' if others else ''}"
+        kinds.append(f"{what}{' with a fork' if branched else ''} from {m.joint(joints[0]).name!r}")
     return "found limbs of " + ", ".join(kinds[:8])
 
 

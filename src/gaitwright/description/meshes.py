@@ -8,6 +8,8 @@ import os
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
+from itertools import islice
 from pathlib import Path
 
 MESH_SUFFIXES = (".obj", ".stl", ".msh")
@@ -44,8 +46,10 @@ class Meshes:
     """Folders by the name of the package, as the user gave them."""
     lost: dict[str, str] = field(default_factory=dict)
     """By link: a mesh of its that is not there."""
+    known: dict[tuple[str, str], Path | None] = field(default_factory=dict)
+    """What was found for a name and a folder, so that nothing is looked for twice."""
 
-    @property
+    @cached_property
     def allowed(self) -> list[Path]:
         """Folders that may be read, with all below them."""
         own = self.folder.resolve()
@@ -53,6 +57,12 @@ class Meshes:
 
     def find(self, name: str, meshdir: str = "") -> Path | None:
         """The file of a mesh called `name`, from the folder `meshdir` where it is not absolute."""
+        if (name, meshdir) not in self.known:
+            self.known[name, meshdir] = self.searched(name, meshdir)
+        return self.known[name, meshdir]
+
+    def searched(self, name: str, meshdir: str) -> Path | None:
+        """As `find`, by looking at every place."""
         if not name or len(name) > LONGEST_NAME or "\0" in name:
             return None
         places = list(self.places(name.replace("\\", "/"), meshdir))
@@ -119,14 +129,18 @@ class Meshes:
 
 def same_letters(folder: Path, word: str) -> Path | None:
     """What is called `word` in a folder, capitals aside."""
+    name = names_in(folder).get(word.lower())
+    return None if name is None else folder / name
+
+
+@lru_cache(maxsize=1000)
+def names_in(folder: Path) -> dict[str, str]:
+    """Names in a folder by their small letters."""
     try:
         with os.scandir(folder) as entries:
-            for _, entry in zip(range(MOST_ENTRIES), entries, strict=False):
-                if entry.name.lower() == word.lower():
-                    return Path(entry.path)
+            return {entry.name.lower(): entry.name for entry in islice(entries, MOST_ENTRIES)}
     except OSError:
-        pass
-    return None
+        return {}
 
 
 def is_mesh(path: Path) -> bool:

@@ -10,7 +10,7 @@ import mujoco
 
 from gaitwright.description.aside import Aside, aside_of, notes_of
 from gaitwright.description.floating import let_trunk_float
-from gaitwright.description.inertias import mend_inertias
+from gaitwright.description.inertias import give_masses, mend_inertias, take_masses
 from gaitwright.description.locking import lock
 from gaitwright.description.meshes import Meshes
 from gaitwright.description.shapes import drop_meshes
@@ -52,12 +52,15 @@ def read_model(path: Path, packages: Mapping[str, Path] | None = None, visuals: 
     if tree.tag == "robot":
         let_float(spec)
     drop_meshes(spec, meshes)
-    notes = mend_inertias(spec)
+    notes, given = mend_inertias(spec), give_masses(spec)
     model = compile_(spec)
     for change in (let_trunk_float, lambda spec, m: lock(spec, m, aside)):
         changed = change(spec, model)
         if changed:
             notes, model = notes + changed, compile_(spec)
+    if given:
+        notes += take_masses(spec, given)
+        model = compile_(spec)
     return ModelRead(model, notes + notes_of(aside), aside, meshes)
 
 
