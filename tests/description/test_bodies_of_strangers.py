@@ -139,6 +139,16 @@ def test_crosses_hexagons_and_octagons_keep_all_their_legs(n, share):
     assert any("stand in pairs" in note for note in notes) != (share == 0.5)
 
 
+@pytest.mark.parametrize("n", [4, 6, 8])
+def test_legs_that_yaw_little_stand_less_far_to_the_side(n):
+    tight = star(n).replace('_a" axis="0 0 1" range="-2.7 2.7"', '_a" axis="0 0 1" range="-.8 .8"')
+    robot, notes = robot_and_notes(tight, half=".1 .1 .02")
+    q, reached = angles(robot, robot.nominal_feet)
+    assert reached.all()
+    assert np.abs(q[:, 0]).max() == pytest.approx(0.45)
+    assert not any("outside the joint limits" in note for note in notes)
+
+
 @pytest.mark.parametrize("aside", [0.005, -0.03])
 def test_a_hexagon_beside_the_origin_is_one(aside):
     robot, _ = robot_and_notes(star(6, aside=aside), half=".1 .1 .02")
@@ -204,8 +214,10 @@ def test_a_limb_above_the_hips_that_cannot_reach_the_ground_is_an_arm(which):
     assert any("'m_a' is no leg, for it starts above the hips" in note for note in notes)
 
 
-def test_two_arms_do_not_make_a_hexapod():
-    arms = ARM["beside the middle"] + ARM["beside the middle"].replace('"m_', '"n_').replace(".03", "-.03")
+@pytest.mark.parametrize("longer", [False, True])
+def test_two_arms_do_not_make_a_hexapod(longer):
+    arm = ARM["beside the middle"].replace(".2 0 0", ".4 0 0") if longer else ARM["beside the middle"]
+    arms = arm + arm.replace('"m_', '"n_').replace(".03", "-.03")
     robot, notes = robot_and_notes(dog() + arms)
     assert robot.legs == ("FL", "FR", "RL", "RR")
     assert len([note for note in notes if "is no leg" in note]) == 2

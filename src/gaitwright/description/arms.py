@@ -1,10 +1,12 @@
 """Limbs of three hinges → those that are legs, and a sentence about each that is not (row R2).
 
-A limb is kept as a leg unless something says that it is none: it starts above the hips and cannot reach the
-ground, or it has no counterpart and is unlike the others. What is like a leg is never left out.
+A limb is kept as a leg unless something says that it is none: it starts above the hips and is of another
+build or cannot reach the ground, or it has no counterpart and is unlike the others. What is like a leg is
+never left out.
 """
 
 from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,6 +22,16 @@ ALIKE = 1.3
 """Legs are at most so many times as long as one another."""
 TRIED = 13
 """So many angles of each hinge tell how low a foot comes."""
+LONE = "is unlike the others and has no counterpart"
+
+
+class Usual(NamedTuple):
+    """What most limbs are like: length, height of first hinge and foot [m] in the base frame, yaw or not."""
+
+    length: float
+    level: float
+    ground: float
+    yaws: bool
 
 
 def sorted_out(limbs: list[Limb]) -> tuple[list[int], Heading, tuple[str, ...]]:
@@ -27,59 +39,65 @@ def sorted_out(limbs: list[Limb]) -> tuple[list[int], Heading, tuple[str, ...]]:
 
     Raises `BadFile` where the legs are not in pairs.
     """
-    high, unlike = above_the_hips(limbs), unlike_the_others(limbs)
+    high = above_the_hips(limbs)
+    arms, unlike = set(high), unlike_the_others(limbs)
     everyone = set(range(len(limbs)))
     straight = heading(limbs)
-    if straight is not None and not straight.turn and not high:
+    if straight is not None and not straight.turn and not arms:
         return sorted(everyone), straight, ()
-    for dropped in (high, high | unlike, unlike, set()):
+    for dropped in (arms, arms | unlike, unlike, set()):
         kept = sorted(everyone - dropped)
         way = heading([limbs[i] for i in kept])
         if way is not None:
-            return kept, way, tuple(locked(limbs[i], i in high) for i in sorted(dropped))
+            return kept, way, tuple(locked(limbs[i], high.get(i, LONE)) for i in sorted(dropped))
     return sorted(everyone), as_written(limbs), ()
 
 
-def locked(limb: Limb, high: bool) -> str:
+def locked(limb: Limb, why: str) -> str:
     """The sentence about a limb that is no leg."""
-    lone = "it is unlike the others and has no counterpart"
-    why = "it starts above the hips and cannot reach the ground" if high else lone
-    return f"the limb of three hinges from joint {limb.name!r} is no leg, for {why}: its joints are locked"
+    return f"the limb of three hinges from joint {limb.name!r} is no leg, for it {why}: its joints are locked"
 
 
-def above_the_hips(limbs: list[Limb]) -> set[int]:
-    """Limbs that start above the hips of the others and do not come down to the ground they stand on."""
-    shapes = [limb.shape for limb in limbs if limb.shape is not None]
-    if len(shapes) < 4:
-        return set()
-    length = float(np.median([shape.stretched for shape in shapes]))
-    level = float(np.median([shape.hip[2] for shape in shapes]))
-    ground = float(np.median([stance.nominal_foot(shape)[2] for shape in shapes]))
-    return {
-        i
-        for i, limb in enumerate(limbs)
-        if limb.hip[2] > level + ABOVE * length
-        and (limb.shape is None or lowest_foot(limb.shape) > ground + NEARLY_DOWN * length)
-    }
+def above_the_hips(limbs: list[Limb]) -> dict[int, str]:
+    """Limbs that start above the hips of the others and are no legs, each with the reason."""
+    most = usual(limbs)
+    if most is None:
+        return {}
+    high = {i: limb.shape for i, limb in enumerate(limbs) if limb.hip[2] > most.level + ABOVE * most.length}
+    reasons = {}
+    for i, shape in high.items():
+        if shape is None or shape.yaws != most.yaws:
+            reasons[i] = "starts above the hips and is of another build than the legs"
+        elif lowest_foot(shape) > most.ground + NEARLY_DOWN * most.length:
+            reasons[i] = "starts above the hips and cannot reach the ground"
+    return reasons
 
 
 def unlike_the_others(limbs: list[Limb]) -> set[int]:
-    """Limbs of another kind, length or height than most."""
+    """Limbs of another build, length or height than most."""
+    most = usual(limbs)
+    return set() if most is None else {i for i, limb in enumerate(limbs) if not is_like(limb, most)}
+
+
+def is_like(limb: Limb, most: Usual) -> bool:
+    """Whether a limb may be one of the legs by its build."""
+    if limb.shape is None or limb.shape.yaws != most.yaws:
+        return False
+    as_long = most.length / ALIKE <= limb.shape.stretched <= most.length * ALIKE
+    return as_long and bool(abs(limb.hip[2] - most.level) <= ABOVE * most.length)
+
+
+def usual(limbs: list[Limb]) -> Usual | None:
+    """What most of the limbs are like; `None` where fewer than four could be legs."""
     shapes = [limb.shape for limb in limbs if limb.shape is not None]
     if len(shapes) < 4:
-        return set()
-    length = float(np.median([shape.stretched for shape in shapes]))
-    level = float(np.median([shape.hip[2] for shape in shapes]))
-    yaws = 2 * sum(shape.yaws for shape in shapes) > len(shapes)
-
-    def is_like(limb: Limb) -> bool:
-        shape = limb.shape
-        if shape is None or shape.yaws != yaws:
-            return False
-        as_long = length / ALIKE <= shape.stretched <= length * ALIKE
-        return as_long and bool(abs(limb.hip[2] - level) <= ABOVE * length)
-
-    return {i for i, limb in enumerate(limbs) if not is_like(limb)}
+        return None
+    return Usual(
+        length=float(np.median([shape.stretched for shape in shapes])),
+        level=float(np.median([shape.hip[2] for shape in shapes])),
+        ground=float(np.median([stance.nominal_foot(shape)[2] for shape in shapes])),
+        yaws=2 * sum(shape.yaws for shape in shapes) > len(shapes),
+    )
 
 
 def lowest_foot(leg: LegShape) -> float:

@@ -151,7 +151,7 @@ def as_written(limbs: list[Limb]) -> Heading:
         turned = ", and no turn of the base makes them" if len(limbs) in LEG_NAMES else ""
         raise BadFile(
             f"{len(left)} legs on the left (y > 0) and {len(right)} on the right{on_it}; "
-            f"expected 2, 3 or 4 pairs{turned}"
+            f"expected 2, 3 or 4 pairs{turned}; they start at {', '.join(repr(x.name) for x in limbs[:10])}"
         )
     return Heading(0.0, in_order(places, left, right), "")
 

@@ -18,6 +18,8 @@ DEPTH_BELOW_ABDUCTION = 0.65
 """Abduction leg: depth of the foot below hinge 2, per length of the stretched leg."""
 DEPTH_BELOW_YAW, REACH_FROM_YAW = 0.45, 0.40
 """Yaw leg: depth of the foot below hinge 2 and its distance sideways, per length of the stretched leg."""
+STRIDE = 0.35
+"""A leg that yaws stands so far from the limits of its first hinge that it can take a step [rad]."""
 COMFORT = 0.2
 """Distance from a joint limit [rad] beyond which more of it does not make a branch better."""
 STANDING = 0.2
@@ -76,11 +78,26 @@ def below_abduction(leg: LegShape) -> Float[np.ndarray, "3"]:
 
 
 def below_yaw(leg: LegShape) -> Float[np.ndarray, "3"]:
-    """Straight sideways from the yaw axis, away from the body."""
+    """Straight sideways from the yaw axis, away from the body; less so where hinge 1 does not turn so far."""
     outward = math.copysign(1.0, leg.hip[1])
     reach = REACH_FROM_YAW * leg.stretched + math.hypot(leg.offset[0, 1], leg.offset[0, 2])
     depth = DEPTH_BELOW_YAW * leg.stretched - leg.leg_frame[2, 0] * leg.offset[0, 0]
-    return leg.hip + np.array([0.0, outward * reach, -depth])
+    aside = np.array([0.0, outward * reach, -depth])
+    turn = short_of_limits(leg, leg.hip + aside) * math.copysign(1.0, leg.leg_frame[2, 0])
+    if turn == 0.0:
+        return leg.hip + aside
+    return leg.hip + np.array([-math.sin(turn) * aside[1], math.cos(turn) * aside[1], -depth])
+
+
+def short_of_limits(leg: LegShape, foot: Float[np.ndarray, "3"]) -> float:
+    """How far hinge 1 would have to turn to be `STRIDE` from its limits with the foot there [rad]."""
+    room = min(STRIDE, 0.5 * float(leg.q_max[0] - leg.q_min[0]))
+    wanted = []
+    for q in branch_angles(leg, foot).values():
+        turn = float(np.clip(q[0], leg.q_min[0] + room, leg.q_max[0] - room) - q[0])
+        others = max(0.0, -leg.margin(np.array([q[0] + turn, q[1], q[2]])))
+        wanted.append((round(others, 6), abs(turn), turn))
+    return min(wanted, default=(0.0, 0.0, 0.0))[2]
 
 
 def branch_angles(leg: LegShape, foot: Float[np.ndarray, "3"]) -> dict[tuple[int, int], np.ndarray]:
