@@ -74,7 +74,8 @@ def test_a_robot_that_runs(tmp_path: Path):
     assert report["robot"] == "mouse"
     assert report["runs"] is True
     assert {finding["kind"] for finding in report["findings"]} == {"file", "body", "motors", "trial"}
-    assert told.endswith(report["summary"])
+    assert report["summary"] in told
+    assert len(report["notes"]) == 1
 
 
 def test_a_robot_too_weak_to_stand_is_exit_code_1(tmp_path: Path):
@@ -130,6 +131,44 @@ def test_every_trial_is_told_and_judged():
     assert summary(hexapod, findings).startswith("hexapod can stand")
     assert "fall short" not in summary(hexapod, findings)  # what it does in spite of its motors is not told
     assert not runs([replace(finding, verdict="no") for finding in findings])
+
+
+def finding(kind, what: str, verdict, sentence: str, lacks: bool = False) -> Finding:
+    return Finding(kind, what, verdict, sentence, lacks)
+
+
+TRIED = [finding("trial", what, "ok", "3 of 3 starts") for what in ("stand", "walk", "trot")]
+
+
+def test_what_the_motors_cannot_do_is_not_said_to_be_possible():
+    """A trial may go well by what simulated motors do beyond their limits; the summary goes by both."""
+    missing = "trot at 0.4 m/s turns the knee of FL 40° beyond its limit"
+    findings = [finding("motors", "trot", "no", missing, True), *TRIED]
+    assert not runs(findings)
+    assert summary(GO2, findings).startswith(
+        f"go2 can stand and walk; it cannot reliably trot, though it did in simulation: {missing}"
+    )
+    strained = [finding("motors", "trot", "limited", "trot needs 40 N·m", True), *TRIED]
+    assert runs(strained)
+    assert summary(GO2, strained) == "go2 can stand, walk and trot (at the limits of its motors)"
+
+
+def test_motors_that_turn_too_slowly_are_told():
+    skill = find_skill("trot", GO2)
+    quick = of_motors(replace(GO2, rate_max=np.full((4, 3), 30.0)), skill)
+    assert "% of its speed" in quick.sentence
+    slow = of_motors(replace(GO2, rate_max=np.full((4, 3), 1.5)), skill)
+    assert slow.verdict == "limited"
+    assert slow.lacks
+    assert "rad/s; the motor turns 1.5" in slow.sentence
+
+
+def test_a_package_is_a_name_and_a_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    path = written(tmp_path, small_robot())
+    assert main(["robots", "--check", path, "--package", "pip"]) == 2
+    assert "'pip' is not a package; write NAME=FOLDER" in capsys.readouterr().err
+    assert main(["skill", "--robot", path, "--package", f"pip={tmp_path}/no"]) == 2
+    assert "package pip: " in capsys.readouterr().err
 
 
 def verdicts(findings: list[Finding]) -> dict[str, str]:

@@ -71,13 +71,22 @@ class MotorRequirements:
         return float((self.lasting / self.robot.tau_max).max())
 
     @property
+    def haste(self) -> Float[np.ndarray, "legs 3"]:
+        """Largest joint rates as shares of the motors' own; 0 where no limit is known."""
+        limits = np.zeros_like(self.rate) if self.robot.rate_max is None else self.robot.rate_max
+        return np.divide(self.rate, limits, out=np.zeros_like(self.rate), where=limits > 0.0)
+
+    @property
     def what(self) -> str:
         """The gait and its velocity in words."""
         forward, left, turn = map(float, self.command)
         return words(self.gait, (forward, left, turn))
 
     def shortage(self, leeway: float = 1.0) -> str | None:
-        """What is missing, as a sentence; `None` where motors times `leeway` and joints suffice."""
+        """What is missing, as a sentence; `None` where motors times `leeway` and joints suffice.
+
+        Joint rates are held against their limits only without leeway: simulated motors turn faster.
+        """
         short = self.lasting / self.robot.tau_max
         leg, joint = (int(i) for i in np.unravel_index(np.argmax(short), short.shape))
         if short[leg, joint] > leeway:
@@ -85,6 +94,11 @@ class MotorRequirements:
             where = f"the {HINGES[joint]} of {self.robot.legs[leg]}"
             digits = 3 if need > 1.01 * limit else 5
             return f"{self.what} needs {need:.{digits}g} N·m at {where}; the motor gives {limit:.{digits}g}"
+        leg, joint = (int(i) for i in np.unravel_index(np.argmax(self.haste), short.shape))
+        if self.robot.rate_max is not None and leeway <= 1.0 < self.haste[leg, joint]:
+            turn, limit = self.rate[leg, joint], self.robot.rate_max[leg, joint]
+            where = f"the {HINGES[joint]} of {self.robot.legs[leg]}"
+            return f"{self.what} turns {where} at {turn:.3g} rad/s; the motor turns {limit:.3g}"
         leg, joint = (int(i) for i in np.unravel_index(np.argmin(self.room), short.shape))
         if self.room[leg, joint] < -STRAINED:
             where = f"the {HINGES[joint]} of {self.robot.legs[leg]}"

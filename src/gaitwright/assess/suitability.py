@@ -55,6 +55,8 @@ class Finding:
     what: str
     verdict: Verdict
     sentence: str
+    lacks: bool = False
+    """Whether motors or joints lack something at the very speed that the skill is meant for."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,6 +80,7 @@ TASKS = (
     Task("turn in place", "turn-in-place", 0.0, turn=TURN),
     Task("trot sideways", "trot", 0.0, left=0.2),
 )
+AT_LIMITS = " (at the limits of its motors)"
 NEEDED = ("stand", "walk", "trot")
 """What a robot must do to be one that we run."""
 
@@ -109,8 +112,26 @@ def suitability(
 
 
 def runs(findings: Sequence[Finding]) -> bool:
-    """Whether the robot stood, walked and trotted from every start."""
-    return all(finding.verdict == "ok" for finding in trials(findings) if finding.what in NEEDED)
+    """Whether the robot stood, walked and trotted from every start, by motors that can."""
+    needed = [finding for finding in trials(findings) if finding.what in NEEDED]
+    return all(finding.verdict == "ok" and unable(findings, finding) is None for finding in needed)
+
+
+def unable(findings: Sequence[Finding], trial: Finding) -> str | None:
+    """Why the motors cannot do what was tried, as the check of the motors says; `None` where they can."""
+    motors = [finding for finding in of_skill(findings, trial) if finding.verdict == "no"]
+    return motors[0].sentence if motors else None
+
+
+def strained(findings: Sequence[Finding], trial: Finding) -> bool:
+    """Whether what was tried asks more of the motors than their limits."""
+    return any(finding.lacks for finding in of_skill(findings, trial))
+
+
+def of_skill(findings: Sequence[Finding], trial: Finding) -> list[Finding]:
+    """What the check of the motors found for the skill that was tried."""
+    skill = next(task.skill for task in TASKS if task.what == trial.what)
+    return [finding for finding in findings if finding.kind == "motors" and finding.what == skill]
 
 
 def trials(findings: Sequence[Finding]) -> list[Finding]:
@@ -120,11 +141,17 @@ def trials(findings: Sequence[Finding]) -> list[Finding]:
 
 def summary(robot: Robot, findings: Sequence[Finding]) -> str:
     """What the robot can do, what it cannot and why, and what its motors are short for, in one sentence."""
-    can = [finding.what for finding in trials(findings) if finding.verdict == "ok"]
-    cannot = [
-        f"{finding.what}: {finding.sentence}" for finding in trials(findings) if finding.verdict != "ok"
-    ]
-    rhythms = {rhythm(task.skill) for task in TASKS if task.what in can}
+    can, cannot = [], []
+    for trial in trials(findings):
+        lacking = unable(findings, trial)
+        if trial.verdict != "ok":
+            cannot.append(f"{trial.what}: {trial.sentence}")
+        elif lacking:
+            cannot.append(f"{trial.what}, though it did in simulation: {lacking}")
+        else:
+            can.append(trial.what + (AT_LIMITS if strained(findings, trial) else ""))
+    done = [what.removesuffix(AT_LIMITS) for what in can]
+    rhythms = {rhythm(task.skill) for task in TASKS if task.what in done}
     shown = [name for name in LIBRARY if rhythm(name) in rhythms]
     short = [f.what for f in findings if f.kind == "motors" and f.verdict != "ok" and f.what not in shown]
     parts = [f"{robot.name} can {listed(can)}" if can else f"{robot.name} can do nothing that was tried"]
@@ -221,9 +248,10 @@ def of_motors(robot: Robot, skill: Skill) -> Finding:
     if missing is not None:
         # A body that stands has no momentum to get over what is missing.
         hopeless = gait.duty >= 1.0 or shortage(robot, gait, *how, leeway=HOPELESS) is not None
-        return Finding("motors", skill.name, "no" if hopeless else "limited", missing)
+        return Finding("motors", skill.name, "no" if hopeless else "limited", missing, lacks=True)
     found = motor_requirements(robot, gait, *how)
     share = f"{found.what} takes up to {found.load:.0%} of a motor's torque"
+    share += "" if robot.rate_max is None else f" and {found.haste.max():.0%} of its speed"
     if skill.fastest == 0.0 or skill.name == "turn":
         return Finding("motors", skill.name, "ok", share)
     most = fastest_supported(robot, skill)

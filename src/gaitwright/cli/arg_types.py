@@ -72,6 +72,13 @@ def point(text: str) -> tuple[float, float]:
     return finite(parts[0]), finite(parts[1])
 
 
+def package(text: str) -> tuple[str, str]:
+    name, _, folder = text.partition("=")
+    if not name or not folder:
+        raise argparse.ArgumentTypeError(f"{text.strip()!r} is not a package; write NAME=FOLDER")
+    return name, folder
+
+
 def driver(text: str) -> str:
     if text in LATER:
         raise WrongUse(f"driver {text!r} does not exist yet; there is: {', '.join(DRIVERS)}")

@@ -13,6 +13,7 @@ from gaitwright.cli.arg_types import (
     duration,
     finite,
     integrator,
+    package,
     plant,
     point,
     positive,
@@ -72,8 +73,19 @@ def add_skill(parser: argparse.ArgumentParser) -> None:
 def add_robot_and_scene(parser: argparse.ArgumentParser, scene: str) -> None:
     robot = "a name that `gaitwright robots` lists, or an MJCF or URDF file (go2)"
     parser.add_argument("--robot", default="go2", metavar="NAME|FILE", help=robot)
+    add_packages(parser)
     where = f"a name that `gaitwright scenes` lists, or a JSON file ({scene})"
     parser.add_argument("--scene", default=scene, metavar="NAME|FILE", help=where)
+
+
+def add_packages(parser: argparse.ArgumentParser) -> None:
+    where = (
+        "where the meshes are that a robot's file names as package://NAME/…, or that lie outside its folder; "
+        "once for each package"
+    )
+    parser.add_argument(
+        "--package", type=package, action="append", default=[], metavar="NAME=FOLDER", help=where
+    )
 
 
 def add_run(parser: argparse.ArgumentParser, seconds: float) -> None:
@@ -120,12 +132,14 @@ def listed(offers: dict[str, str]) -> str:
 def add_robots(parser: argparse.ArgumentParser) -> None:
     which = "examine this robot: a name, or an MJCF or URDF file"
     parser.add_argument("--check", metavar="FILE|NAME", help=which)
+    add_packages(parser)
 
 
 def add_skills(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--robot", default="go2", metavar="NAME|FILE", help="the robot whose speeds to show (go2)"
     )
+    add_packages(parser)
     parser.add_argument("--plot", action="store_true", help="draw the leg cycles, see --out")
     cycle = "check and draw this leg cycle: climb, trot, walk, or a JSON file"
     parser.add_argument("--cycle", metavar="NAME|FILE", help=cycle)
@@ -137,6 +151,7 @@ def add_teach(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--lesson", choices=["skills"], default="skills", metavar="NAME", help=lesson)
     robot = "a name that `gaitwright robots` lists, or an MJCF or URDF file (go2)"
     parser.add_argument("--robot", default="go2", metavar="NAME|FILE", help=robot)
+    add_packages(parser)
     parser.add_argument("--out", required=True, metavar="BOOK", help="a new skillbook, e.g. go2.skills")
     start = "go on from this skillbook, also an older one; it stays as it is (begin with no rules)"
     parser.add_argument("--from", dest="start", metavar="BOOK", help=start)

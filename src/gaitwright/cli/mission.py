@@ -16,7 +16,7 @@ def run(args: Namespace) -> int:
     trips.check_outputs(args)
     if (args.driver == "hybrid") != (args.skillbook is not None):
         raise WrongUse("driver hybrid and --skillbook FILE go together: the rules choose the skills")
-    robot = trips.find_robot(args.robot)
+    robot = trips.find_robot(args.robot, args.package)
     scene = trips.find_scene(args.scene, args.seed, robot, args.start)
     points = tuple(args.waypoints or [tuple(args.goal)])
     for point in points[:-1]:

@@ -79,7 +79,7 @@ def row(fact: dict) -> tuple[str, ...]:
 # --- does it run my robot? -------------------------------------------------------------------------
 def check(args: Namespace) -> int:
     """Examines one robot; 0: it stands, walks and trots, 1: it does not."""
-    robot, notes = found(args.check)
+    robot, notes = found(args.check, args.package)
     if not is_warm():
         remark("compiling kernels (first run only, up to two minutes) …")
     with told_now_and_then() as tell:
@@ -99,11 +99,11 @@ def check(args: Namespace) -> int:
     return int(not good)
 
 
-def found(asked: str) -> tuple[Robot, tuple[str, ...]]:
+def found(asked: str, packages: list[tuple[str, str]]) -> tuple[Robot, tuple[str, ...]]:
     """The robot, and what its file left open; a file that is none is told with what would be one."""
     with working(f"loading {asked}", worth_a_line=False):
         try:
-            return load_robot_and_notes(asked)
+            return load_robot_and_notes(asked, dict(packages))
         except BadFile as error:
             raise BadFile(f"{error} ({NEEDED})") from error
 

@@ -26,7 +26,7 @@ def run(args: Namespace) -> int:
     trips.check_outputs(args)
     if args.driver == "hybrid":
         raise WrongUse("driver hybrid chooses skills by rules; one skill that is held needs none")
-    robot = trips.find_robot(args.robot)
+    robot = trips.find_robot(args.robot, args.package)
     skill = find_skill(args.skill, robot)
     scene = trips.find_scene(args.scene, args.seed, robot)
     if args.plant == "kinematic" and skill.name in PLANNED:

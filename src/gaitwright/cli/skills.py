@@ -24,7 +24,7 @@ def run(args: Namespace) -> int:
     check_json(args.json)
     check_picture(args.out)
     cycle = load_cycle(args.cycle) if args.cycle else None
-    robot = find_robot(args.robot)
+    robot = find_robot(args.robot, args.package)
     figures: dict = {"robot": robot.name, "skills": [facts_of(name, robot) for name in skill_names(robot.n)]}
     aside, drawn = args.json == "-", args.plot or args.out is not None or cycle is not None
     if not aside and not cycle:

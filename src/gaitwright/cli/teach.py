@@ -29,7 +29,7 @@ EVERY = 10.0
 
 def run(args: Namespace) -> int:
     check_json(args.json)
-    robot, path = find_robot(args.robot), new_file(args.out, "skillbook")
+    robot, path = find_robot(args.robot, args.package), new_file(args.out, "skillbook")
     begun(robot, path.stem, args).save(path)
     began = perf_counter()
     try:

@@ -3,6 +3,7 @@
 import json
 import math
 from argparse import Namespace
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
@@ -50,10 +51,10 @@ def check_outputs(args: Namespace) -> None:
     check_folder(args.out)
 
 
-def find_robot(asked: str) -> Robot:
+def find_robot(asked: str, packages: Iterable[tuple[str, str]] = ()) -> Robot:
     """The robot of that name or file; what its file left open is told on the standard error."""
     with working(f"loading {asked}", worth_a_line=False):
-        robot, notes = load_robot_and_notes(asked)
+        robot, notes = load_robot_and_notes(asked, dict(packages))
     for note in notes:
         remark(f"{robot.name}: {note}")
     return robot

@@ -1,7 +1,7 @@
 """Reads one robot's file under limits and prints its numbers as JSON, for `description/load.py`.
 
-Run as `python -m gaitwright.description.child FILE`. Exit code 0: `{"robot": …, "notes": …}`; 3: the file
-is refused, `{"error": sentence}`.
+Run as `python -m gaitwright.description.child FILE [NAME=FOLDER …]`, with the packages whose meshes may be
+read. Exit code 0: `{"robot": …, "notes": …}`; 3: the file is refused, `{"error": sentence}`.
 """
 
 import os
@@ -20,11 +20,11 @@ MEMORY_BYTES = 4_000_000_000
 """Memory for one file, as addresses [bytes]."""
 
 
-def main(path: Path) -> int:
+def main(path: Path, packages: dict[str, Path]) -> int:
     """Prints the robot in `path`, or why it is refused."""
     limit()
     try:
-        robot, notes = read_robot(path)
+        robot, notes = read_robot(path, packages)
     except BadFile as error:
         sys.stdout.buffer.write(msgspec.json.encode({"error": str(error)}))
         return BadFile.exit_code
@@ -45,4 +45,5 @@ def limit() -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(main(Path(sys.argv[1])))
+    named = (word.split("=", 1) for word in sys.argv[2:])
+    sys.exit(main(Path(sys.argv[1]), {name: Path(folder) for name, folder in named}))

@@ -1,21 +1,22 @@
 """A compiled MuJoCo model → `Robot`: every number read or derived, none set by hand (rows R1, R2)."""
 
-import math
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import mujoco
 import numpy as np
 
+from gaitwright.description.doubts import impossible_inertias, left_out, unbalanced
 from gaitwright.description.feet import Foot, find_foot, lowest, required, solid
 from gaitwright.description.leg_shape import leg_frame, shape_of
 from gaitwright.description.legs import BASE, Legs, find_legs, home_pose
+from gaitwright.description.limits import rate_limits, torque_limit, with_torque_limits
 from gaitwright.description.validate import check, check_finite
 from gaitwright.errors import BadFile
 from gaitwright.model import nominal_pose as stance
 from gaitwright.model.kinematics import HINGES, angles
 from gaitwright.model.nominal_pose import LegShape
 from gaitwright.model.robot import Robot
-from gaitwright.numerics.geometry import GRAVITY
 
 BELLY = 0.2
 """The trunk's box reaches at most this far below the lowest hip, per length of the stretched leg."""
@@ -45,10 +46,13 @@ class LegBody(NamedTuple):
     nominal_feet: np.ndarray
 
 
-def derive(m: mujoco.MjModel, name: str) -> tuple[Robot, tuple[str, ...]]:
+def derive(
+    m: mujoco.MjModel, name: str, rates: Mapping[str, float] | None = None
+) -> tuple[Robot, tuple[str, ...]]:
     """The robot in `m`, and sentences about what the model did not say and was derived.
 
-    Raises `BadFile` with what is wrong, without the file's name.
+    `rates`: velocity limits by the names of joints [rad/s], which a model does not hold. Raises `BadFile`
+    with what is wrong, without the file's name.
     """
     legs = find_legs(m)
     feet, shapes, postures = stood(m, legs)
@@ -57,6 +61,7 @@ def derive(m: mujoco.MjModel, name: str) -> tuple[Robot, tuple[str, ...]]:
     mass, com, inertia = merged(m, legs.data, legs.owner == BASE, *legs.frame)
     total = mass + numbers["mass"].sum()
     numbers["tau_max"], of_torques = with_torque_limits(legs.names, shapes, numbers["tau_max"], total)
+    rate_max, of_rates = rate_limits(m, legs.joints, shapes, rates or {})
     robot = Robot(
         name=name,
         legs=legs.names,
@@ -64,10 +69,16 @@ def derive(m: mujoco.MjModel, name: str) -> tuple[Robot, tuple[str, ...]]:
         base_com=com,
         base_inertia=inertia,
         trunk=trunk(m, legs, shapes),
+        rate_max=rate_max,
         **numbers,
     )
     check(robot)
-    return robot, legs.notes + of_torques + outside_limits(robot, shapes)
+    doubts = (
+        *outside_limits(robot, shapes),
+        *impossible_inertias(m, legs, robot),
+        *unbalanced(m, legs, robot),
+    )
+    return robot, legs.notes + left_out(m, legs) + of_torques + of_rates + doubts
 
 
 def stacked(legs: list) -> dict[str, np.ndarray]:
@@ -181,64 +192,6 @@ def merged(m, d, bodies: np.ndarray, axes: np.ndarray, origin: np.ndarray):
         inertia += turn @ np.diag(m.body_inertia[body]) @ turn.T
         inertia += weight * (away @ away * np.eye(3) - np.outer(away, away))
     return mass, com, inertia
-
-
-# --- torque limits ---------------------------------------------------------------------------------
-def torque_limit(m: mujoco.MjModel, joint: int) -> float:
-    """Torque limit of one joint [N·m], by its actuators and by itself; NaN where neither says."""
-    bounds = [
-        joint_bound(m, joint),
-        max(filter(None, (actuator_bound(m, a) for a in drives(m, joint))), default=0.0),
-    ]
-    given = [bound for bound in bounds if bound > 0.0]
-    return min(given, default=math.nan)
-
-
-def drives(m: mujoco.MjModel, joint: int) -> list[int]:
-    """Actuators that pull at the joint."""
-    on_joint = (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT))
-    return [a for a in range(m.nu) if m.actuator_trntype[a] in on_joint and m.actuator_trnid[a, 0] == joint]
-
-
-def joint_bound(m: mujoco.MjModel, joint: int) -> float:
-    """The joint's own limit of actuator torque [N·m], as URDF's `effort`; 0 where there is none."""
-    return both_ways(m.jnt_actfrcrange[joint]) if m.jnt_actfrclimited[joint] else 0.0
-
-
-def actuator_bound(m: mujoco.MjModel, a: int) -> float:
-    """What one actuator can do at its joint [N·m], by its force range and, if a motor, its control range."""
-    gear = abs(float(m.actuator_gear[a, 0]))
-    bounds = []
-    if m.actuator_forcelimited[a]:
-        bounds.append(gear * both_ways(m.actuator_forcerange[a]))
-    is_motor = m.actuator_gaintype[a] == mujoco.mjtGain.mjGAIN_FIXED and not m.actuator_biastype[a]
-    if m.actuator_ctrllimited[a] and is_motor:
-        bounds.append(gear * abs(float(m.actuator_gainprm[a, 0])) * both_ways(m.actuator_ctrlrange[a]))
-    return min((bound for bound in bounds if bound > 0.0), default=0.0)
-
-
-def both_ways(limits: np.ndarray) -> float:
-    """What a range allows in both directions."""
-    return max(0.0, min(-float(limits[0]), float(limits[1])))
-
-
-def with_torque_limits(names: tuple[str, ...], shapes: list[LegShape], tau_max: np.ndarray, total: float):
-    """Torque limits without gaps, and a sentence where there were some; `total` is the robot's mass [kg].
-
-    A joint without a limit gets the torque that carries the whole weight on two legs, with a lever of
-    half a leg.
-    """
-    levers = [0.5 * shape.stretched for shape in shapes]
-    derived = np.tile(0.5 * total * GRAVITY * np.array(levers)[:, None], 3)
-    missing = np.isnan(tau_max)
-    if not missing.any():
-        return tau_max, ()
-    where = ", ".join(name for name, gaps in zip(names, missing, strict=True) if gaps.any())
-    note = (
-        f"no torque limit is given for {missing.sum()} joints (legs {where}): taken as "
-        f"{derived[missing].max():.1f} N·m, which carries the weight on two legs with a lever of half a leg"
-    )
-    return np.where(missing, derived, tau_max), (note,)
 
 
 # --- the whole robot -------------------------------------------------------------------------------

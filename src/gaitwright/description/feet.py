@@ -20,6 +20,10 @@ AXIS = np.array([0.0, 0.0, 1.0])
 """The axis of a capsule or cylinder in its own frame."""
 
 
+class NoFoot(BadFile):
+    """A leg ends in nothing that could be its foot."""
+
+
 class Foot(NamedTuple):
     """A spherical foot, world frame [m]; `points` are the surface it was guessed from, else empty."""
 
@@ -132,9 +136,9 @@ def named_foot(m: mujoco.MjModel, d: mujoco.MjData, bodies: np.ndarray, knee: np
 
 
 def required(foot: Foot | None, leg: str) -> Foot:
-    """The foot, or a `BadFile` that says what would have been one."""
+    """The foot, or a `NoFoot` that says what would have been one."""
     if foot is None:
-        raise BadFile(
+        raise NoFoot(
             f"leg {leg} has no foot: expected a collision shape, or a fixed body or site "
             "with 'foot' in its name, on its last link"
         )

@@ -163,10 +163,12 @@ def told(m: mujoco.MjModel, chains: list[Chain]) -> str:
     """What limbs there are, for an error."""
     if not chains:
         return "the floating body has no joints"
-    kinds = [
-        f"{len(c.joints)} joints{' with a fork' if c.branched else ''} from {m.joint(c.joints[0]).name!r}"
-        for c in chains
-    ]
+    hinge = mujoco.mjtJoint.mjJNT_HINGE
+    kinds = []
+    for joints, branched in chains:
+        others = sum(m.jnt_type[j] != hinge for j in joints)
+        what = f"{len(joints)} joints{f' ({others} of them no hinge)' if others else ''}"
+        kinds.append(f"{what}{' with a fork' if branched else ''} from {m.joint(joints[0]).name!r}")
     return "found limbs of " + ", ".join(kinds[:8])
 
 

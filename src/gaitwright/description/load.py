@@ -5,13 +5,14 @@ import signal
 import subprocess
 import sys
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
 
 import msgspec
 
 from gaitwright.description.child import CPU_SECONDS, MEMORY_BYTES
 from gaitwright.description.reading import read_robot
-from gaitwright.errors import BadFile, unknown
+from gaitwright.errors import BadFile, WrongUse, unknown
 from gaitwright.model.catalogue import robot_file, robot_names
 from gaitwright.model.robot import Robot, robot_of
 
@@ -30,22 +31,33 @@ class Answer(msgspec.Struct, forbid_unknown_fields=True):
     error: str = ""
 
 
-def load_robot(name_or_path: str | Path) -> Robot:
+Packages = Mapping[str, str | Path]
+"""Folders by the names of the packages that lie in them."""
+
+
+def load_robot(name_or_path: str | Path, packages: Packages | None = None) -> Robot:
     """The robot of that name, or the one in that MJCF or URDF file.
 
-    Raises `WrongUse` for a name that does not exist and `BadFile` for a file that cannot be used.
+    `packages`: where meshes may be that a file names as `package://NAME/…`, or that are outside its own
+    folder. Raises `WrongUse` for a name that does not exist and `BadFile` for a file that cannot be used.
     """
-    return load_robot_and_notes(name_or_path)[0]
+    return load_robot_and_notes(name_or_path, packages)[0]
 
 
-def load_robot_and_notes(name_or_path: str | Path) -> tuple[Robot, tuple[str, ...]]:
-    """As `load_robot`, with a sentence about each thing that the file left open and that was derived."""
+def load_robot_and_notes(
+    name_or_path: str | Path, packages: Packages | None = None
+) -> tuple[Robot, tuple[str, ...]]:
+    """As `load_robot`, with a sentence about each thing that was mended, or left open and derived."""
+    folders = {name: Path(folder) for name, folder in (packages or {}).items()}
+    for name, folder in folders.items():
+        if not folder.is_dir():
+            raise WrongUse(f"package {name}: {folder} is no folder")
     asked = str(name_or_path)
     if asked in robot_names():
         return built_in(asked)
     path = Path(asked)
     if path.is_file():
-        return from_file(path)
+        return from_file(path, folders)
     if path.is_dir():
         raise BadFile(f"{path}: a folder; expected an MJCF or URDF file")
     if path.suffix.lower() in SUFFIXES or len(path.parts) > 1:
@@ -58,11 +70,12 @@ def built_in(name: str) -> tuple[Robot, tuple[str, ...]]:
     return read_robot(robot_file(name))
 
 
-def from_file(path: Path) -> tuple[Robot, tuple[str, ...]]:
+def from_file(path: Path, packages: Mapping[str, Path]) -> tuple[Robot, tuple[str, ...]]:
     """The robot in a user's file, which a child process reads under limits."""
     if not os.access(path, os.R_OK):
         raise BadFile(f"{path}: no permission to read it")
     reading = [sys.executable, "-P", "-B", "-m", "gaitwright.description.child", str(path.resolve())]
+    reading += [f"{name}={folder.resolve()}" for name, folder in packages.items()]
     with tempfile.TemporaryDirectory() as empty:
         try:
             child = subprocess.run(

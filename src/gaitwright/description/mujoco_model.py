@@ -1,38 +1,73 @@
-"""A robot's file → a compiled MuJoCo model with no more meshes than its numbers need (row R2)."""
+"""A robot's file → a compiled MuJoCo model, mended where files often are wrong, and notes of it (row R2)."""
 
 import re
 import xml.etree.ElementTree as ET
+from collections.abc import Mapping
 from pathlib import Path
+from typing import NamedTuple
 
 import mujoco
 
-from gaitwright.description.xmlfile import inside, read_tree
+from gaitwright.description.aside import Aside, aside_of, notes_of
+from gaitwright.description.floating import let_trunk_float
+from gaitwright.description.inertias import give_masses, mend_inertias, take_masses
+from gaitwright.description.locking import lock
+from gaitwright.description.meshes import Meshes
+from gaitwright.description.shapes import drop_meshes
+from gaitwright.description.urdf import plain_urdf
+from gaitwright.description.xmlfile import check_numbers, plain_mjcf, read_tree
 from gaitwright.errors import BadFile
 
-MESH_SUFFIXES = (".obj", ".stl", ".msh")
+
+class ModelRead(NamedTuple):
+    """A model, and what was found out on the way to it."""
+
+    model: mujoco.MjModel
+    notes: tuple[str, ...]
+    """A sentence about each thing that had to be mended."""
+    aside: Aside
+    meshes: Meshes
 
 
 def compiled(path: Path) -> mujoco.MjModel:
     """The model in an MJCF or URDF file. Raises `BadFile`, without the file's name."""
-    return read_model(path)[0]
+    return read_model(path).model
 
 
-def read_model(path: Path) -> tuple[mujoco.MjModel, tuple[str, ...]]:
-    """The model in an MJCF or URDF file, and a sentence about each thing that had to be mended.
+def read_model(path: Path, packages: Mapping[str, Path] | None = None, visuals: bool = False) -> ModelRead:
+    """The model in an MJCF or URDF file. Raises `BadFile`, without the file's name.
 
-    Raises `BadFile`, without the file's name.
+    `packages`: folders in which meshes may be too, by name; `visuals`: in a URDF, what a link looks like
+    stands for collision shapes that it lacks.
     """
+    meshes = Meshes(path.parent, packages or {})
     tree = read_tree(path)
-    text = ET.tostring(tree, encoding="unicode")
+    aside = aside_of(tree)
+    tree = plain_mjcf(tree) if tree.tag == "mujoco" else plain_urdf(tree, meshes, visuals)
+    check_numbers(tree)
     try:
-        spec = mujoco.MjSpec.from_string(text)
+        spec = mujoco.MjSpec.from_string(ET.tostring(tree, encoding="unicode"))
     except (ValueError, mujoco.FatalError) as error:
         raise refused(error) from error
     if tree.tag == "robot":
         let_float(spec)
-    drop_meshes(spec, path.parent)
+    drop_meshes(spec, meshes)
+    notes, given = mend_inertias(spec), give_masses(spec)
+    model = compile_(spec)
+    for change in (let_trunk_float, lambda spec, m: lock(spec, m, aside)):
+        changed = change(spec, model)
+        if changed:
+            notes, model = notes + changed, compile_(spec)
+    if given:
+        notes += take_masses(spec, given)
+        model = compile_(spec)
+    return ModelRead(model, notes + notes_of(aside), aside, meshes)
+
+
+def compile_(spec: mujoco.MjSpec) -> mujoco.MjModel:
+    """The model that a spec is of."""
     try:
-        return spec.compile(), ()
+        return spec.compile()
     except (ValueError, mujoco.FatalError) as error:
         raise refused(error) from error
 
@@ -57,53 +92,3 @@ def let_float(spec: mujoco.MjSpec) -> None:
         root.add_freejoint()
     for geom in spec.geoms:
         geom.mass = 0.0
-
-
-def drop_meshes(spec: mujoco.MjSpec, folder: Path) -> None:
-    """Deletes the meshes that no mass hangs on and that are not the only shape of their body.
-
-    Those that stay must be files of the folder. Raises `BadFile` where a mass hangs on one that is not.
-    """
-    files = {mesh.name: mesh_file(spec, mesh, folder) for mesh in spec.meshes}
-    for geom in list(spec.geoms):
-        if geom.type in (mujoco.mjtGeom.mjGEOM_HFIELD, mujoco.mjtGeom.mjGEOM_SDF):
-            spec.delete(geom)
-        elif geom.meshname:
-            there = files.get(geom.meshname) is not None
-            if weighs(spec, geom) and not there:
-                raise BadFile(
-                    f"body {geom.parent.name!r} takes its mass from mesh {geom.meshname!r}, "
-                    "which is not an OBJ, STL or MSH file inside the file's own folder"
-                )
-            if not weighs(spec, geom) and not (there and is_only_shape(geom)):
-                spec.delete(geom)
-    used = {geom.meshname for geom in spec.geoms}
-    for mesh in list(spec.meshes):
-        if mesh.name not in used:
-            spec.delete(mesh)
-        elif mesh.file:
-            mesh.file = files[mesh.name]
-    spec.meshdir, spec.strippath = "", False
-
-
-def mesh_file(spec: mujoco.MjSpec, mesh, folder: Path) -> str | None:
-    """Absolute path of a mesh inside the folder; empty for one that is written out; `None` if unusable."""
-    if not mesh.file:
-        return ""
-    name = Path(mesh.file).name if spec.strippath else mesh.file
-    path = inside(folder, str(Path(spec.meshdir) / name))
-    return str(path) if path is not None and path.suffix.lower() in MESH_SUFFIXES else None
-
-
-def weighs(spec: mujoco.MjSpec, geom) -> bool:
-    """Whether MuJoCo will take mass from a shape."""
-    rule = spec.compiler.inertiafromgeom
-    asked = rule == 1 or (rule == 2 and not geom.parent.explicitinertial)
-    low, high = spec.compiler.inertiagrouprange
-    return bool(asked and low <= geom.group <= high and geom.mass != 0.0 and geom.density != 0.0)
-
-
-def is_only_shape(geom) -> bool:
-    """Whether no plain solid shape stands for the body that has this mesh."""
-    plain = [g for g in geom.parent.geoms if not g.meshname and (g.contype or g.conaffinity)]
-    return not plain

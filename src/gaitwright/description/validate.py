@@ -11,11 +11,22 @@ from gaitwright.model.robot import Robot
 
 ABSURD = 1e6
 """No number of a robot is as large as this, in SI units."""
-PER_JOINT = ("mass", "com", "inertia", "armature", "damping", "friction", "q_min", "q_max", "tau_max")
+PER_JOINT = (
+    "mass",
+    "com",
+    "inertia",
+    "armature",
+    "damping",
+    "friction",
+    "q_min",
+    "q_max",
+    "tau_max",
+    "rate_max",
+)
 """Fields of a `Robot` with a row per leg and joint."""
 PER_LEG = ("hip", "leg_frame", "offset", "sign", "foot_radius", "branch", "nominal_feet")
 """Fields with a row per leg."""
-NOT_NEGATIVE = ("armature", "damping", "friction")
+NOT_NEGATIVE = ("armature", "damping", "friction", "rate_max")
 """Fields whose numbers are zero or more."""
 
 WORDS = {
@@ -53,6 +64,8 @@ def check(robot: Robot) -> None:
 def named_numbers(robot: Robot) -> Iterator[tuple[str, np.ndarray]]:
     """The numbers of a robot in small pieces, each with its name: field, leg and joint."""
     for field, value in vars(robot).items():
+        if value is None:
+            continue
         if field in PER_JOINT:
             for (i, leg), (j, joint) in product(enumerate(robot.legs), enumerate(HINGES)):
                 yield f"{WORDS.get(field, field)} of leg {leg}, {joint}", np.asarray(value[i, j])

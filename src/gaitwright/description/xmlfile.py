@@ -1,7 +1,7 @@
-"""An XML file of unknown origin → a plain MJCF or URDF tree that opens no other file and runs nothing.
+"""An XML file of unknown origin → a plain MJCF tree (URDF: `urdf.py`) that opens nothing and runs nothing.
 
 Only what bears on the numbers of a robot is kept. Includes are spliced in here, so that MuJoCo sees one
-text; meshes are still named, `description/mujoco_model.py` decides which of them are opened.
+text; meshes are still named, `shapes.py` decides which of them are opened.
 """
 
 import math
@@ -32,27 +32,19 @@ MJCF_DROPPED = {
     "pair",
 }
 MJCF_REFUSED = {"attach", "composite", "flexcomp"}
-URDF_SECTIONS = {"link", "joint", "mujoco"}
-URDF_MENDERS = {"balanceinertia", "boundmass", "boundinertia"}
-"""MuJoCo's own remedies for the inertias of a URDF, in `<mujoco><compiler …/></mujoco>`."""
-URDF_DROPPED = {"visual", "mimic", "safety_controller", "calibration"}
 SHORTEST_AXIS = 1e-14
 """An axis shorter than this has no direction, here as in MuJoCo."""
 
 
 def read_tree(path: Path) -> ET.Element:
-    """The plain tree of an MJCF or URDF file. Raises `BadFile`, without the file's name."""
+    """The whole tree of an MJCF or URDF file with what it includes. Raises `BadFile`, without its name."""
     reader = Reader(path.parent)
     root = reader.read(path)
     if root.tag == "mujoco":
         root[:] = reader.expanded(root)
-        plain = plain_mjcf(root)
-    elif root.tag == "robot":
-        plain = plain_urdf(root)
-    else:
+    elif root.tag != "robot":
         raise BadFile(f"its outermost element is <{root.tag}>; expected <mujoco> (MJCF) or <robot> (URDF)")
-    check_numbers(plain)
-    return plain
+    return root
 
 
 def check_numbers(root: ET.Element) -> None:
@@ -175,47 +167,14 @@ def plain_mjcf(root: ET.Element) -> ET.Element:
     for element in list(root.iter()):
         keep(element, lambda child: child.tag not in MJCF_DROPPED)
         element.attrib.pop("material", None)
+        if element.tag == "joint" and element.get("type") in ("free", "ball"):
+            element.attrib.pop("axis", None)
     for actuators in root.findall("actuator"):
         keep(actuators, lambda child: "joint" in child.attrib or "jointinparent" in child.attrib)
     for keyframe in root.findall("keyframe"):
         for key in keyframe:
             key.attrib = {name: value for name, value in key.attrib.items() if name in ("name", "qpos")}
     return root
-
-
-def plain_urdf(root: ET.Element) -> ET.Element:
-    """A URDF tree with links, joints and collision shapes, and nothing else."""
-    if any("xacro" in str(element.tag) for element in root.iter()):
-        raise BadFile("it is a xacro template; expected the URDF that xacro makes of it")
-    keep(root, lambda child: child.tag in URDF_SECTIONS)
-    for element in list(root.iter()):
-        keep(element, lambda child: child.tag not in URDF_DROPPED)
-    for compiler in root.findall("mujoco/compiler"):
-        compiler.attrib = {name: value for name, value in compiler.attrib.items() if name in URDF_MENDERS}
-    for limit in root.findall("joint/limit"):
-        limit.attrib = {name: value for name, value in limit.attrib.items() if is_finite(value)}
-    floating = [joint for joint in root.findall("joint") if joint.get("type") == "floating"]
-    if len(floating) == 1:
-        keep_below(root, floating[0])
-    return root
-
-
-def keep_below(root: ET.Element, floating: ET.Element) -> None:
-    """Makes the child of a floating joint the root link: what is above it is the world."""
-    outwards = {end(joint, "parent"): [] for joint in root.findall("joint")}
-    for joint in root.findall("joint"):
-        outwards[end(joint, "parent")].append(end(joint, "child"))
-    below = [end(floating, "child")]
-    for link in below:
-        below += [child for child in outwards.get(link, ()) if child not in below]
-    of = {"link": lambda link: link.get("name"), "joint": lambda joint: end(joint, "parent")}
-    keep(root, lambda child: child.tag == "mujoco" or of[child.tag](child) in below)
-
-
-def end(joint: ET.Element, which: str) -> str:
-    """Name of the `parent` or `child` link of a URDF joint."""
-    link = joint.find(which)
-    return "" if link is None else link.get("link", "")
 
 
 def keep(element: ET.Element, wanted) -> None:

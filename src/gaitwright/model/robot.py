@@ -99,6 +99,8 @@ class Robot:
     """Centres of the feet in the nominal stance, base frame [m]."""
     trunk: Float[np.ndarray, "2 3"]
     """Collision box of the floating body: centre and half sizes, base frame [m]."""
+    rate_max: Float[np.ndarray, "legs 3"] | None = None
+    """Velocity limits of the joints [rad/s], 0 where there is none; `None`: no limit is known."""
 
     @property
     def stance(self) -> Float[np.ndarray, "legs 3"]:
@@ -174,7 +176,8 @@ class Robot:
 def lists_of(robot: Robot) -> dict[str, Any]:
     """The fields of a robot as plain JSON values."""
     values = {field.name: getattr(robot, field.name) for field in fields(Robot)}
-    return {name: v.tolist() if isinstance(v, np.ndarray) else v for name, v in values.items()}
+    known = {name: value for name, value in values.items() if value is not None}
+    return {name: v.tolist() if isinstance(v, np.ndarray) else v for name, v in known.items()}
 
 
 def robot_of(values: dict[str, Any]) -> Robot:

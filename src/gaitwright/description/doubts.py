@@ -1,0 +1,76 @@
+"""Numbers that can be read but hardly be true: a sentence with the links that they are of."""
+
+import mujoco
+import numpy as np
+
+from gaitwright.description.aside import listed
+from gaitwright.description.legs import BASE, ELSEWHERE, Legs, limbs, three_hinges
+from gaitwright.model.kinematics import angles
+from gaitwright.model.robot import Robot
+from gaitwright.numerics.polygon import hull, margins
+
+WEIGHTY = 1e-3
+"""A link of less than this share of the mass is taken to weigh so much, where its inertia is doubted."""
+
+MOST_LIMBS = 6
+"""So many limbs that are no legs are told of."""
+
+
+def impossible_inertias(m: mujoco.MjModel, legs: Legs, robot: Robot) -> tuple[str, ...]:
+    """A sentence about the links whose inertia no body of their mass has that fits the robot.
+
+    No body has a radius of gyration larger than itself: that of a link of a leg is at most half a leg, that
+    of what is fixed to the base its hips' distance from their middle more.
+    """
+    half_leg = 0.5 * robot.leg_length
+    wide = float(np.linalg.norm(robot.hip - robot.hip.mean(axis=0), axis=1).max())
+    bodies = np.flatnonzero((legs.owner != ELSEWHERE) & (m.body_mass > 0.0))
+    size = np.where(legs.owner[bodies] == BASE, wide + half_leg, half_leg)
+    mass = np.maximum(m.body_mass[bodies], WEIGHTY * robot.total_mass)
+    wrong = bodies[m.body_inertia[bodies].max(axis=1) > mass * size**2]
+    if not wrong.size:
+        return ()
+    worst = max(wrong, key=lambda body: m.body_inertia[body].max() / m.body_mass[body])
+    gyration = float(np.sqrt(m.body_inertia[worst].max() / m.body_mass[worst]))
+    names = listed([repr(m.body(int(body)).name) for body in wrong])
+    return (
+        f"the inertia of {names} is impossible for links of that mass on a robot of this size "
+        f"({m.body(int(worst)).name!r} would have its mass {gyration:.2g} m from its middle); taken as given",
+    )
+
+
+def unbalanced(m: mujoco.MjModel, legs: Legs, robot: Robot) -> tuple[str, ...]:
+    """A sentence where the centre of mass, in the nominal stance, is not above the feet."""
+    q, _ = angles(robot, robot.nominal_feet)
+    d = mujoco.MjData(m)
+    d.qpos[:] = legs.data.qpos
+    d.qpos[m.jnt_qposadr[legs.joints]] = q
+    mujoco.mj_kinematics(m, d)
+    mine = np.flatnonzero(legs.owner != ELSEWHERE)
+    centres = legs.frame.points(d.xipos[mine])
+    masses = m.body_mass[mine]
+    com = masses @ centres / masses.sum()
+    outside = -float(margins(hull(robot.nominal_feet[:, :2]), com[None, :2])[0])
+    if outside <= 0.0:
+        return ()
+    aside = masses * np.linalg.norm(centres[:, :2] - robot.nominal_feet[:, :2].mean(axis=0), axis=1)
+    worst = int(np.argmax(aside))
+    x, y, z = centres[worst]
+    return (
+        f"the centre of mass is {outside:.2f} m outside the feet: {m.body(int(mine[worst])).name!r} "
+        f"({masses[worst]:.3g} of {masses.sum():.3g} kg) has its own at ({x:.2f}, {y:.2f}, {z:.2f}) m",
+    )
+
+
+def left_out(m: mujoco.MjModel, legs: Legs) -> tuple[str, ...]:
+    """Sentences about limbs that are no legs, and about springs at the joints of legs."""
+    others = [
+        f"the limb of {len(chain.joints)} joints from {m.joint(chain.joints[0]).name!r}"
+        for chain in limbs(m, legs.base)
+        if not set(chain.joints) & set(legs.joints.ravel().tolist()) and not three_hinges(m, [chain])
+    ]
+    springs = [repr(m.joint(int(j)).name) for j in legs.joints.ravel() if m.jnt_stiffness[j] > 0.0]
+    return (
+        *(f"{other} is no leg: its joints are locked" for other in others[:MOST_LIMBS]),
+        *((f"the springs at the joints {listed(springs)} are left out",) if springs else ()),
+    )
