@@ -3,12 +3,15 @@
 The world's failures (a fall, an unreachable goal) are not here: they are values with a sentence.
 """
 
+import errno
 import re
 from collections.abc import Iterable
 from difflib import get_close_matches
 
 LONGEST_NAME = 200
 """At most so many letters of a name are told in a sentence."""
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+"""What the system says where there is no room."""
 
 
 def printable(text: str) -> str:

@@ -1,6 +1,5 @@
 """Files that are complete or not there at all, and the door through which those of users come in."""
 
-import errno
 import json
 import os
 import stat
@@ -11,11 +10,9 @@ from typing import BinaryIO, TypeVar
 
 import msgspec
 
-from gaitwright.errors import BadFile, NoRoom, short
+from gaitwright.errors import FULL, BadFile, NoRoom, short
 
 T = TypeVar("T")
-FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
-"""What the system says where there is no room."""
 
 
 @contextmanager
@@ -49,7 +46,7 @@ def opened_file(path: Path | str, what: str, most: int) -> BinaryIO:
     """
     name = f"{what} {short(str(path))}"
     try:
-        file = open(path, "rb", opener=without_waiting)
+        file = open(path, "rb", opener=without_waiting)  # noqa: SIM115 - the caller closes it
     except (OSError, ValueError) as error:  # a name with a null byte is a ValueError
         raise BadFile(f"{name} cannot be read: {getattr(error, 'strerror', None) or error}") from None
     found = os.fstat(file.fileno())
@@ -95,17 +92,17 @@ def json_of(content: bytes, kind: type[T], name: str) -> T:
     """
     try:
         text_of(content, "it")
-        told_twice = twice_in(content)
-        value = msgspec.json.decode(content, type=kind)
-    except msgspec.ValidationError:
-        if told_twice:
-            raise BadFile(f"{name}: {told_twice!r} is told twice") from None
-        raise
-    except (BadFile, msgspec.DecodeError, RecursionError) as error:
+    except BadFile as error:
         raise BadFile(f"{name} is not JSON: {error}") from None
+    told_twice = twice_in(content)
     if told_twice:
         raise BadFile(f"{name}: {told_twice!r} is told twice")
-    return value
+    try:
+        return msgspec.json.decode(content, type=kind)
+    except msgspec.ValidationError:
+        raise
+    except (msgspec.DecodeError, RecursionError) as error:
+        raise BadFile(f"{name} is not JSON: {error}") from None
 
 
 def twice_in(content: bytes) -> str:

@@ -3,18 +3,20 @@
 import json
 from argparse import Namespace
 from dataclasses import asdict, replace
+from pathlib import Path
 from time import perf_counter
 
-from gaitwright.cli.book_files import new_file, skillbook_of
+from gaitwright.cli.book_files import is_skillbook, new_file, skillbook_of
 from gaitwright.cli.console import remark, show_pairs, working
-from gaitwright.cli.output import check_json, write_json
+from gaitwright.cli.output import check_json, settled, write_json
 from gaitwright.cli.trips import find_robot
+from gaitwright.errors import GaitwrightError, WrongUse
 from gaitwright.knowledge.modifier import Learned
 from gaitwright.knowledge.rules import status
 from gaitwright.learning.analogies import proposals
 from gaitwright.learning.exam import held_out, right_share
-from gaitwright.learning.school import Schooled, attend, catch_up, keep
-from gaitwright.learning.teacher import ScriptedTeacher
+from gaitwright.learning.school import Schooled, attend, catch_up, keep, reached_in
+from gaitwright.learning.teacher import teacher_for
 from gaitwright.model.robot import Robot
 from gaitwright.skillbook.book import Skillbook
 from gaitwright.skillbook.writer import Ledger, open_for_learning
@@ -29,22 +31,42 @@ EVERY = 10.0
 
 def run(args: Namespace) -> int:
     check_json(args.json)
-    robot, path = find_robot(args.robot), new_file(args.out, "skillbook")
-    begun(robot, path.stem, args).save(path)
+    robot, path = find_robot(args.robot), settled(args.out, "--out")
+    is_new = not is_book_of(robot, path, args)
+    if is_new:
+        begun(robot, new_file(args.out, "skillbook").stem, args).save(path)
     began = perf_counter()
     try:
         with open_for_learning(path) as ledger:
             schooled = taught(robot, ledger, args)
             offered = [offer.events[0].why for offer in offer_analogies(ledger)]
     except KeyboardInterrupt:
-        remark(f"gaitwright: interrupted; what was learned so far is in {path}")
+        remark(f"gaitwright: interrupted; what was learned so far is in {path}: the same command goes on")
         return 130
+    except GaitwrightError:
+        if is_new and len(Skillbook.load(path).steps) == 1:  # nothing was learned
+            path.unlink()
+        raise
+    teacher = teacher_for(robot)
     with working("the exam", worth_a_line=False):
-        right = right_share(
-            schooled.rulebook, ScriptedTeacher(), held_out(robot, ScriptedTeacher(), args.seed, EXAM)
-        )
+        right = right_share(schooled.rulebook, teacher, held_out(robot, teacher, args.seed, EXAM))
     tell(schooled, offered, right, perf_counter() - began, args)
     return 0
+
+
+def is_book_of(robot: Robot, path: Path, args: Namespace) -> bool:
+    """Whether a file is a skillbook of this robot, to go on with. Raises `WrongUse` for another robot's, or
+    where another book is named to begin with."""
+    if not path.is_file() or not is_skillbook(str(path)):
+        return False
+    if args.start is not None:
+        raise WrongUse(f"{path} exists, and goes on from itself: leave --from out, or name a new skillbook")
+    book = Skillbook.load(path)
+    if book.robot != robot.name:
+        taught_on = f"the robot {book.robot}" if book.robot else "no robot"
+        raise WrongUse(f"{path} exists and was taught on {taught_on}, not {robot.name}: name a new skillbook")
+    up_to_date(book.rulebook)
+    return True
 
 
 def begun(robot: Robot, name: str, args: Namespace) -> Skillbook:
@@ -75,6 +97,7 @@ def taught(robot: Robot, ledger: Ledger, args: Namespace) -> Schooled:
         progress=progress,
         keep=lambda studied: keep(ledger, studied),
         start=catch_up(ledger),
+        reached=reached_in(ledger.book.steps, args.seed),
     )
 
 

@@ -13,7 +13,7 @@ from gaitwright.cli.mechanics_check import Checks
 from gaitwright.cli.output import check_folder, check_json, write_json, write_whole
 from gaitwright.control.numerical import Method
 from gaitwright.description.load import load_robot_and_notes
-from gaitwright.errors import WrongUse
+from gaitwright.errors import WrongUse, told
 from gaitwright.ground.scene import Scene
 from gaitwright.locomotion import Brain, Lap
 from gaitwright.model.robot import Robot
@@ -45,14 +45,14 @@ class Setting:
 
 # --- before the run --------------------------------------------------------------------------------
 def check_outputs(args: Namespace) -> None:
-    """`WrongUse` where a result could not be written; nothing is made yet."""
+    """`WrongUse` where a result could not be written; nothing is made yet. `args.out` leads there."""
     check_json(args.json)
-    check_folder(args.out)
+    args.out = check_folder(args.out)
 
 
 def find_robot(asked: str) -> Robot:
     """The robot of that name or file; what its file left open is told on the standard error."""
-    with working(f"loading {asked}", worth_a_line=False):
+    with working(f"loading {told(asked)}", worth_a_line=False):
         robot, notes = load_robot_and_notes(asked)
     for note in notes:
         remark(f"{robot.name}: {note}")

@@ -106,9 +106,7 @@ def _check(asked: str, entry: SceneEntry) -> None:
     x_min, y_min, x_max, y_max = entry.bounds
     x, y, _ = entry.start
     if not (x_min < x_max and y_min < y_max):
-        raise BadFile(
-            f"{asked}: bounds is {list(entry.bounds)}, expected x_min, y_min, x_max, y_max"
-        )
+        raise BadFile(f"{asked}: bounds is {list(entry.bounds)}, expected x_min, y_min, x_max, y_max")
     if not (x_min <= x <= x_max and y_min <= y <= y_max):
         raise BadFile(
             f"{asked}: start is {list(entry.start)}, which lies outside bounds {list(entry.bounds)}"

@@ -14,8 +14,8 @@ from gaitwright.navigation.obstacles import PlanView
 
 Point = tuple[float, float]
 MANY = 400
-"""Among more corners than this a corner looks at those near to it first: the path is then short, if not always
-the shortest."""
+"""Among more corners than this a corner looks at those near to it first: the path is then short, if not
+always the shortest."""
 NEAREST = 48
 """So many."""
 

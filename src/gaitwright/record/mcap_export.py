@@ -16,13 +16,12 @@ from typing import Any
 import numpy as np
 from mcap_ros2.writer import Writer
 
-from gaitwright.files import whole
+from gaitwright.files import fitting, whole
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import quaternion_of
 from gaitwright.plant.mujoco.world import JOINTS
 from gaitwright.record.channels import SCAN
 from gaitwright.record.metrics import stretches
-from gaitwright.record.npz import fitting
 from gaitwright.record.recording import Recording
 from gaitwright.record.rows import parts
 from gaitwright.signals import Scan

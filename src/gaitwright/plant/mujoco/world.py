@@ -46,7 +46,7 @@ def build_world(robots: Sequence[Placed], scene: Scene, timestep: float = 0.002)
     """The physics of robots in a scene; `timestep` in seconds.
 
     Robots collide with the ground, the boxes and each other, not with themselves. MuJoCo's reset upon a bad
-    state is off: numbers that blow up stay visible. Raises `BadFile` where MuJoCo refuses what came of a file.
+    state is off: numbers that blow up stay visible. Raises `BadFile` where MuJoCo refuses it.
     """
     if len(robots) > MOST_ROBOTS:
         raise WrongUse(f"{len(robots)} robots in one world; there can be {MOST_ROBOTS}")
