@@ -39,6 +39,14 @@ def fitting(path: Path | str) -> Iterator[None]:
 
 
 # --- files of users --------------------------------------------------------------------------------
+def is_there(path: Path | str) -> bool:
+    """Whether a path leads anywhere."""
+    try:
+        return Path(path).exists()
+    except (OSError, ValueError):  # a name that is too long, or none
+        return False
+
+
 def opened_file(path: Path | str, what: str, most: int) -> BinaryIO:
     """A file of at most `most` bytes, open for reading; `what` it is wanted for begins the sentence.
 
@@ -64,11 +72,11 @@ def without_waiting(path: str, flags: int) -> int:
     return os.open(path, flags | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0))
 
 
-def content_of(path: Path | str, what: str, most: int) -> bytes:
-    """All of a file of at most `most` bytes. Raises `BadFile`."""
+def content_of(path: Path | str, what: str, most: int, first: int | None = None) -> bytes:
+    """All of a file of at most `most` bytes, or the `first` of them. Raises `BadFile`."""
     with opened_file(path, what, most) as file:
         try:
-            content = file.read(most + 1)
+            content = file.read(most + 1 if first is None else first)
         except OSError as error:
             raise BadFile(f"{what} {short(str(path))} cannot be read: {error.strerror}") from None
     if len(content) > most:

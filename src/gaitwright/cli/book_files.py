@@ -5,7 +5,7 @@ from pathlib import Path
 
 from gaitwright.cli.output import settled
 from gaitwright.errors import BadFile, WrongUse, short
-from gaitwright.files import content_of, opened_file
+from gaitwright.files import content_of, is_there
 from gaitwright.knowledge.json_form import MAX_BYTES, loads
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.skillbook.book import Skillbook
@@ -34,8 +34,14 @@ def skillbook_of(path: str) -> Skillbook:
 
 def is_skillbook(path: str) -> bool:
     """Whether a file begins as skillbooks do. Raises `BadFile` where there is none, or it cannot be read."""
-    with opened_file(path, "book", BOOK_BYTES) as file:
-        return file.read(len(SQLITE)) == SQLITE
+    check_there(path, "a book")
+    return content_of(path, "book", BOOK_BYTES, len(SQLITE)) == SQLITE
+
+
+def check_there(path: str, what: str) -> None:
+    """Raises `BadFile` where there is nothing, and says what is wanted."""
+    if not is_there(path):
+        raise BadFile(f"no file {short(path)}: {what} is wanted")
 
 
 def new_file(where: str, what: str) -> Path:

@@ -6,7 +6,7 @@ from argparse import Namespace
 from dataclasses import asdict, replace
 from pathlib import Path
 
-from gaitwright.cli.book_files import SQLITE, new_file, skillbook_of
+from gaitwright.cli.book_files import SQLITE, check_there, new_file, skillbook_of
 from gaitwright.cli.console import remark, show_pairs, show_prose, working
 from gaitwright.cli.explain_text import counted
 from gaitwright.cli.output import check_json, write_json, write_whole
@@ -124,6 +124,7 @@ def import_book(args: Namespace) -> None:
     """The book of a text in a new file; rules as JSON become a book that begins with them."""
     out = new_file(out_of(args), "skillbook")
     source = args.files[0]
+    check_there(source, "what `gaitwright books export` wrote")
     content = content_of(source, "text", MAX_BYTES)
     if content.startswith(SQLITE):
         raise BadFile(f"{source} is a skillbook already: only text is imported")

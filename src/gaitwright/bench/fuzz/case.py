@@ -33,14 +33,18 @@ def content_of(kind: str, seed: int, number: int) -> bytes:
 
 
 def prepared(folder: Path) -> None:
-    """Lays sound files into a folder, for commands that name them."""
+    """Lays sound files and a pipe that nobody writes to into a folder, for commands that name them."""
     files = {
         "sound.skills": originals.skillbooks,
         "sound.txt": originals.texts,
         "sound.npz": originals.recordings,
+        "sound.json": originals.scenes,
+        "sound.xml": originals.mjcfs,
     }
     for name, made in files.items():
         (folder / name).write_bytes(made()[0])
+    if hasattr(os, "mkfifo") and not (folder / "pipe").exists():
+        os.mkfifo(folder / "pipe")
 
 
 def run_case(kind: str, seed: int, number: int, folder: Path) -> Outcome:

@@ -126,20 +126,41 @@ def damaged_words(chance: Random, value: str) -> str:
     return " ".join(words)
 
 
+PATHS = (
+    "sound.skills", "sound.txt", "sound.npz", "sound.json", "sound.xml", "pipe", "/dev/full", "two words",
+    "/dev/zero", "missing/../there", "missing/there", "there/..", "/proc/self/mem", "/", ".", "l" * 250,
+    "x" * 5000,
+)  # fmt: skip
+"""What may stand where a file is named: some of these are there, see `case.prepared`."""
+
+
 def damaged_command(chance: Random, words: Sequence[str]) -> list[str]:
-    """A command line with words lost, doubled, swapped or replaced."""
+    """A command line with other values behind its options, and now and then words lost, doubled or added."""
     out = list(words)
     for _ in range(chance.choice((1, 1, 2, 3))):
-        at = chance.randrange(1, len(out)) if len(out) > 1 else 0
+        values = [at for at, word in enumerate(out) if at and not word.startswith("--")] or [0]
+        at = chance.choice(values) if chance.random() < 0.85 else chance.randrange(len(out))
         how = chance.random()
-        if how < 0.55:
-            out[at] = str(chance.choice((*NUMBERS, *TEXTS)))
-        elif how < 0.7 and len(out) > 1:
+        if how < 0.85:
+            out[at] = another_word(chance, out[at])
+        elif how < 0.9 and len(out) > 1:
             del out[at]
-        elif how < 0.8:
+        elif how < 0.95:
             out.insert(at, out[at])
-        elif how < 0.9:
-            out[at] = out[at][: len(out[at]) // 2]
         else:
             out.append(str(chance.choice(TEXTS)))
     return out
+
+
+def another_word(chance: Random, word: str) -> str:
+    """Another number for a number, mostly; another path, text or number for anything else."""
+    try:
+        number = float(word)
+    except ValueError:
+        pool = chance.choice(
+            (PATHS, PATHS, TEXTS, NUMBERS, (word[: len(word) // 2], word + ":0.1", word * 2))
+        )
+        return str(chance.choice(pool))
+    if chance.random() < 0.6:
+        return f"{number * chance.choice((-1, 0, 0.1, 0.5, 1.5, 3, 10, 1e3)):g}"
+    return str(chance.choice((*NUMBERS, *TEXTS)))

@@ -18,7 +18,7 @@ import msgspec
 from msgspec import Meta
 
 from gaitwright.errors import BadFile, short, unknown
-from gaitwright.files import content_of, json_of
+from gaitwright.files import content_of, is_there, json_of
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle, Point, fault_of
 
 MAX_BYTES = 100_000
@@ -52,17 +52,9 @@ def load_cycle(name_or_path: str | Path) -> LegCycle:
     asked = str(name_or_path)
     if asked in cycle_names():
         return built_in(asked)
-    if isinstance(name_or_path, Path) or Path(asked).suffix == ".json" or is_there(Path(asked)):
+    if isinstance(name_or_path, Path) or Path(asked).suffix == ".json" or is_there(asked):
         return read(asked)
     raise unknown("leg cycle", asked, (*cycle_names(), "or the path of a JSON file"))
-
-
-def is_there(path: Path) -> bool:
-    """Whether a path leads anywhere."""
-    try:
-        return path.exists()
-    except (OSError, ValueError):  # a name that is too long, or none
-        return False
 
 
 def cycle_of(skill: str) -> LegCycle:
