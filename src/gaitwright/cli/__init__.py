@@ -24,6 +24,7 @@ from gaitwright.errors import (
 )
 
 DEFECT, INTERRUPTED, NOT_WRITTEN = 70, 130, 2
+UNREAD = "nobody reads the output any more"
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -40,6 +41,8 @@ def main(argv: list[str] | None = None) -> int:
         return ended(INTERRUPTED, "interrupted")
     except OSError as error:
         return ended(NOT_WRITTEN, shortened(told(of_the_system(error)), argv))
+    except SystemExit:  # what prints tables ends so where nobody reads them
+        return ended(NOT_WRITTEN, UNREAD)
     except MemoryError:
         return ended(NOT_WRITTEN, "this takes more memory than there is")
     except Exception as error:  # the last door: whatever comes here is our mistake and shown in full
@@ -78,7 +81,7 @@ def ended(code: int, sentence: str) -> int:
 def of_the_system(error: OSError) -> str:
     """What the system refused, in words."""
     if isinstance(error, BrokenPipeError):
-        return "nobody reads the output any more"
+        return UNREAD
     what = f"{error.filename} " if error.filename else "the output "
     if error.errno in FULL:
         return f"no room for {what.strip()}: {error.strerror}"

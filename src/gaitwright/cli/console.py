@@ -4,6 +4,7 @@ import sys
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from threading import Timer
 from time import perf_counter
 
 from rich.box import SIMPLE_HEAD
@@ -15,6 +16,8 @@ from gaitwright.locomotion import Lap
 
 EVERY = 5.0
 """Where no terminal shows a moving bar, a line of progress comes this often [s]."""
+PATIENCE = 1.0
+"""What takes longer says what it is [s]."""
 REFRESH = 0.2
 """The moving bar is drawn this often [s]."""
 WIDE = 180
@@ -74,10 +77,24 @@ def working(what: str, worth_a_line: bool = True) -> Iterator[None]:
     if sys.stderr.isatty():
         with console(sys.stderr).status(what):
             yield
-    else:
-        if worth_a_line:
-            remark(f"{what} …")
+    elif worth_a_line:
+        remark(f"{what} …")
         yield
+    else:
+        with told_if_slow(what):
+            yield
+
+
+@contextmanager
+def told_if_slow(what: str) -> Iterator[None]:
+    """Says what is being done once it has taken a second."""
+    timer = Timer(PATIENCE, remark, [f"{what} …"])
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
 
 
 class Simulating:

@@ -61,7 +61,8 @@ def find_robot(asked: str) -> Robot:
 
 def find_scene(asked: str, seed: int, robot: Robot, start: list[float] | None = None) -> Scene:
     """The scene of that name or file, in the robot's size, with `start` (x, y, yaw) where given."""
-    scene = scene_for(robot, asked, seed)
+    with working(f"reading scene {told(asked)}", worth_a_line=False):
+        scene = scene_for(robot, asked, seed)
     if start is None:
         return scene
     x, y, yaw = start
@@ -83,9 +84,11 @@ def check_inside(what: str, point: tuple[float, float], scene: Scene) -> None:
 
 def set_up(robot: Robot, scene: Scene, chooser: Chooser, distribution: Method) -> Setting:
     """The brain of a robot in a scene. Raises `WrongUse` where the start is no place to stand."""
-    brain = Brain.of(robot, scene, chooser, DT, distribution)
     x, y, _ = scene.start
-    if Navigator(robot).view(brain.perception.ground).blocked((x, y)):
+    with working(f"mapping scene {scene.name}", worth_a_line=False):
+        brain = Brain.of(robot, scene, chooser, DT, distribution)
+        on_obstacle = Navigator(robot).view(brain.perception.ground).blocked((x, y))
+    if on_obstacle:
         raise WrongUse(
             f"the start ({x:g}, {y:g}) is on an obstacle of scene {scene.name}, or too near to one"
         )

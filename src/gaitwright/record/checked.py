@@ -10,7 +10,7 @@ from msgspec import Meta
 
 from gaitwright.errors import printable
 from gaitwright.model.robot import Robot, robot_of
-from gaitwright.record.channels import always, columns_of
+from gaitwright.record.channels import SITUATION, always, columns_of
 
 MOST_LEGS = 16
 LARGEST = 1e6
@@ -97,6 +97,21 @@ def check_rows(rows: np.ndarray, legs: int, skills: int, drivers: int) -> None:
     period = column("period")
     if not ((period > 0.0) & (period <= LONGEST_PERIOD)).all():
         raise ValueError(f"the period of a gait is not between 0 and {LONGEST_PERIOD:g} s")
-    points = column("route_points")
-    if not (np.isnan(points) | ((points >= 0) & (points <= MOST_POINTS))).all():
+    check_situation(rows, legs)
+
+
+def check_situation(rows: np.ndarray, legs: int) -> None:
+    """Raises `ValueError` for a route or a look ahead that is none. NaN is what was not known, and only what
+    stands in the way may be endlessly far."""
+    places = columns_of(legs)
+    for name in SITUATION:
+        values = rows[:, places[name]]
+        endless = (values == np.inf) & (name == "scan_obstacle")
+        if not (np.isnan(values) | (np.abs(values) < BLOWN_UP) | endless).all():
+            raise ValueError(f"channel {name} holds what is no number")
+    points, left, following = (rows[:, places[f"route_{name}"]] for name in ("points", "remaining", "next"))
+    known = ~np.isnan(points[:, 0])
+    if not ((points[known] >= 0) & (points[known] <= MOST_POINTS)).all():
         raise ValueError(f"a route has not 0 to {MOST_POINTS} points")
+    if np.isnan(left[known]).any() or np.isnan(following[known & (points[:, 0] > 0)]).any():
+        raise ValueError("a route has points, and none of them is told")

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from random import Random
+from typing import Any
 
 import numpy as np
 
@@ -135,8 +136,8 @@ def damaged_text(chance: Random, content: bytes) -> bytes:
         at = chance.randrange(len(lines))
         word, space, rest = lines[at].partition(b" ")
         how = chance.random()
-        if how < 0.6 and rest.startswith(b"{"):
-            lines[at] = word + space + json.dumps(damaged_value(chance, json.loads(rest))).encode()
+        if how < 0.6 and plain_of(rest) is not None:
+            lines[at] = word + space + json.dumps(damaged_value(chance, plain_of(rest))).encode()
         elif how < 0.75:
             del lines[at]
         elif how < 0.9:
@@ -145,6 +146,14 @@ def damaged_text(chance: Random, content: bytes) -> bytes:
             lines[at] = damaged_bytes(chance, lines[at])
         lines = lines or [b""]
     return b"\n".join(lines)
+
+
+def plain_of(content: bytes) -> Any:
+    """The values of JSON; `None` where it is none any more."""
+    try:
+        return json.loads(content)
+    except ValueError:
+        return None
 
 
 def damaged_recording(chance: Random, content: bytes) -> bytes:
