@@ -72,17 +72,20 @@ def show_prose(text: str, indent: str = "", to_stderr: bool = False) -> None:
 
 
 @contextmanager
-def working(what: str, worth_a_line: bool = True) -> Iterator[None]:
-    """Says what is being done: a spinner on a terminal, else a line where it is worth one."""
+def working(what: str, worth_a_line: bool | None = True) -> Iterator[None]:
+    """Says what is being done: a spinner on a terminal, else a line where it is worth one; `None`: once it
+    has taken a second."""
     if sys.stderr.isatty():
         with console(sys.stderr).status(what):
             yield
     elif worth_a_line:
         remark(f"{what} …")
         yield
-    else:
+    elif worth_a_line is None:
         with told_if_slow(what):
             yield
+    else:
+        yield
 
 
 @contextmanager

@@ -61,7 +61,7 @@ def find_robot(asked: str) -> Robot:
 
 def find_scene(asked: str, seed: int, robot: Robot, start: list[float] | None = None) -> Scene:
     """The scene of that name or file, in the robot's size, with `start` (x, y, yaw) where given."""
-    with working(f"reading scene {told(asked)}", worth_a_line=False):
+    with working(f"reading scene {told(asked)}", worth_a_line=None):
         scene = scene_for(robot, asked, seed)
     if start is None:
         return scene
@@ -85,7 +85,7 @@ def check_inside(what: str, point: tuple[float, float], scene: Scene) -> None:
 def set_up(robot: Robot, scene: Scene, chooser: Chooser, distribution: Method) -> Setting:
     """The brain of a robot in a scene. Raises `WrongUse` where the start is no place to stand."""
     x, y, _ = scene.start
-    with working(f"mapping scene {scene.name}", worth_a_line=False):
+    with working(f"mapping scene {scene.name}", worth_a_line=None):
         brain = Brain.of(robot, scene, chooser, DT, distribution)
         on_obstacle = Navigator(robot).view(brain.perception.ground).blocked((x, y))
     if on_obstacle:
@@ -121,7 +121,7 @@ def run(
     what = (
         "compiling the plant's kernels (first run only, up to two minutes)" if cold else "building the world"
     )
-    with working(what, worth_a_line=cold):
+    with working(what, worth_a_line=cold or None):
         plant = make_plant(
             args.plant,
             setting.robot,
@@ -156,7 +156,7 @@ def warm_up(setting: Setting, plant: Plant, mission: Mission) -> None:
     """Three ticks whose result is thrown away: compiles the kernels, or loads them from numba's cache."""
     cold = not is_warm()
     what = "compiling kernels (first run only, up to two minutes)" if cold else "loading compiled kernels"
-    with working(what, worth_a_line=cold):
+    with working(what, worth_a_line=cold or None):
         walk(setting.brain, plant, mission, 3 * DT)
 
 
