@@ -2,6 +2,8 @@
 
 import json
 from argparse import Namespace
+from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import asdict, replace
 from pathlib import Path
 from time import perf_counter
@@ -12,8 +14,9 @@ from gaitwright.cli.output import check_json, settled, write_json
 from gaitwright.cli.trips import find_robot
 from gaitwright.errors import GaitwrightError, WrongUse
 from gaitwright.knowledge.modifier import Learned
-from gaitwright.knowledge.rules import status
+from gaitwright.knowledge.rules import Rulebook, status
 from gaitwright.learning.analogies import proposals
+from gaitwright.learning.apprentice import Studied
 from gaitwright.learning.exam import held_out, right_share
 from gaitwright.learning.school import Schooled, attend, catch_up, keep, reached_in
 from gaitwright.learning.teacher import teacher_for
@@ -90,15 +93,47 @@ def taught(robot: Robot, ledger: Ledger, args: Namespace) -> Schooled:
             spoke = now
             remark(f"{what}: {done} of {of} ({now:.0f} s)")
 
-    return attend(
-        robot,
-        seed=args.seed,
-        trips_watched=args.trips,
-        progress=progress,
-        keep=lambda studied: keep(ledger, studied),
-        start=catch_up(ledger),
-        reached=reached_in(ledger.book.steps, args.seed),
-    )
+    def school(start: Rulebook, put_away: Callable[[Studied], None]) -> Schooled:
+        reached = reached_in(ledger.book.steps, args.seed)
+        return attend(
+            robot,
+            seed=args.seed,
+            trips_watched=args.trips,
+            progress=progress,
+            keep=put_away,
+            start=start,
+            reached=reached,
+        )
+
+    known, book = catch_up(ledger), ledger.book
+    first = book.steps[0].rulebook
+    if first and not book.ancestors and book.seed == args.seed and not reached_in(book.steps, args.seed):
+        with suppress(Otherwise):  # cut off among the demonstrations: the same again, and on from there
+            return school(first, Onwards(ledger))
+    return school(known, lambda studied: keep(ledger, studied))
+
+
+class Otherwise(Exception):
+    """What a book holds is not what this school begins with."""
+
+
+class Onwards:
+    """Puts away what is learned, but for the steps that a book has already. Raises `Otherwise`, before it
+    adds anything, where these are others."""
+
+    def __init__(self, ledger: Ledger) -> None:
+        self.ledger, self.done = ledger, ledger.book.steps[1:]
+
+    def __call__(self, studied: Studied) -> None:
+        held, self.done = self.done[: len(studied.steps)], self.done[len(studied.steps) :]
+        for step, learned in zip(held, studied.steps, strict=False):
+            lesson = step.lesson or learned.lesson
+            if step.how != learned.how or (lesson.id, lesson.rule) != (
+                learned.lesson.id,
+                learned.lesson.rule,
+            ):
+                raise Otherwise
+        keep(self.ledger, replace(studied, steps=studied.steps[len(held) :]))
 
 
 def offer_analogies(ledger: Ledger) -> tuple[Learned, ...]:
