@@ -21,4 +21,4 @@ def _text(value: Any) -> str:
 
 def whole(number: float) -> float:
     """A number that MuJoCo reads: it refuses those that have lost digits to their smallness."""
-    return 0.0 if abs(number) < sys.float_info.min else number
+    return 0.0 if 0.0 < abs(number) < sys.float_info.min else number
