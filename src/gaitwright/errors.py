@@ -3,14 +3,43 @@
 The world's failures (a fall, an unreachable goal) are not here: they are values with a sentence.
 """
 
+import errno
+import re
 from collections.abc import Iterable
 from difflib import get_close_matches
 
+LONGEST_NAME = 200
+"""At most so many letters of a name are told in a sentence."""
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+"""What the system says where there is no room."""
+
+
+def printable(text: str) -> str:
+    """Text that does nothing to a terminal: control characters, and what is no text, as escapes."""
+    return "".join(
+        c if c.isprintable() else c.encode("unicode_escape", "surrogatepass").decode() for c in text
+    )
+
+
+def short(name: str) -> str:
+    """A name of at most `LONGEST_NAME` letters: of a longer one the beginning and the end."""
+    if len(name) <= LONGEST_NAME:
+        return name
+    return f"{name[: LONGEST_NAME - 61]}…{name[-60:]}"
+
+
+def told(sentence: str) -> str:
+    """A sentence as it may be printed, every long name in it short; those with spaces are the caller's."""
+    return re.sub(rf"\S{{{LONGEST_NAME + 1},}}", lambda name: short(name[0]), printable(sentence))
+
 
 class GaitwrightError(Exception):
-    """A mistake of the caller, told in one sentence."""
+    """A mistake of the caller, told in one sentence that may be printed."""
 
     exit_code = 2
+
+    def __init__(self, sentence: str = "") -> None:
+        super().__init__(told(sentence))
 
 
 class WrongUse(GaitwrightError):

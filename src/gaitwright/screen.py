@@ -14,6 +14,8 @@ from rich.cells import cell_len
 from rich.console import Console
 from rich.text import Text
 
+from gaitwright.errors import printable
+
 WIDTH = 80
 """Columns of what goes to a file or a pipe, unless `COLUMNS` says otherwise."""
 LEAST, MOST = 24, 100
@@ -194,13 +196,18 @@ def _longest_word(cell: Cell) -> int:
     return max(map(cell_len, _text(cell).plain.split()), default=0)
 
 
+def harmless(text: str) -> str:
+    """Text that does nothing to a terminal but begin new lines."""
+    return "\n".join(map(printable, text.split("\n")))
+
+
 def _text(cell: Cell) -> Text:
-    return cell if isinstance(cell, Text) else Text(cell)
+    return cell if isinstance(cell, Text) else Text(harmless(cell))
 
 
 def _styled(cell: Cell, column: Column) -> Text:
     """A cell in its column's style, unless it has one of its own."""
-    return cell if isinstance(cell, Text) else Text(cell, column.style)
+    return cell if isinstance(cell, Text) else Text(harmless(cell), column.style)
 
 
 def _after(indent: int, cell: Cell, label: str = "") -> Text:

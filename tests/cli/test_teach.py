@@ -5,7 +5,12 @@ from pathlib import Path
 import pytest
 
 from gaitwright.cli import main, teach
+from gaitwright.description.load import load_robot
+from gaitwright.learning.apprentice import Studied
+from gaitwright.learning.school import keep
+from gaitwright.learning.teacher import ScriptedTeacher, teacher_for
 from gaitwright.skillbook.book import Skillbook
+from gaitwright.skillbook.writer import Ledger
 
 
 @pytest.fixture(scope="module")
@@ -28,10 +33,70 @@ def test_it_explains_itself(book: Path, capsys: pytest.CaptureFixture[str]) -> N
     assert "climb" in capsys.readouterr().out
 
 
-def test_a_book_is_never_overwritten(book: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_interrupted_school_goes_on_to_the_same_book(
+    book: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    again, words = (
+        tmp_path / "again.skills",
+        ["teach", "--trips", "1", "--out", str(tmp_path / "again.skills")],
+    )
+    monkeypatch.setattr(teach, "EXAM", 8)
+    whole = len(Skillbook.load(book).steps)
+    for steps in (whole - 40, 30):
+        with monkeypatch.context() as cut:
+            cut.setattr(teach, "keep", interrupted_after(steps))
+            assert main(words) == 130
+    assert "goes on" in capsys.readouterr().err
+    assert main(words) == 0
+    assert Skillbook.load(again).rulebook == Skillbook.load(book).rulebook
+
+
+def interrupted_after(steps: int):
+    """Puts so many steps away, then comes the interrupt."""
+    left = iter(range(steps))
+
+    def put_away(ledger: Ledger, studied: Studied) -> None:
+        for step in studied.steps:
+            if next(left, None) is None:
+                raise KeyboardInterrupt
+            keep(ledger, Studied(studied.rulebook, steps=(step,)))
+
+    return put_away
+
+
+def test_a_book_that_is_done_stays_as_it_is(book: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(teach, "EXAM", 8)
+    before = Skillbook.load(book)
+    assert main(["teach", "--trips", "1", "--out", str(book)]) == 0
+    assert Skillbook.load(book) == before
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("--robot", "hexapod"), "was taught on the robot go2"),
+        (("--from", "x.skills"), "goes on from itself"),
+    ],
+)
+def test_a_book_of_something_else_is_never_overwritten(
+    words: tuple[str, ...], told: str, book: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     before = book.read_bytes()
-    assert main(["teach", "--out", str(book)]) == 2
-    assert "exists" in capsys.readouterr().err and book.read_bytes() == before
+    assert main(["teach", *words, "--out", str(book)]) == 2
+    assert told in capsys.readouterr().err and book.read_bytes() == before
+
+
+def test_no_other_file_is_overwritten(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "notes.txt").write_text("mine")
+    assert main(["teach", "--out", str(tmp_path / "notes.txt")]) == 2
+    assert "exists" in capsys.readouterr().err and (tmp_path / "notes.txt").read_text() == "mine"
+
+
+def test_a_robot_of_six_legs_is_taught_what_it_has() -> None:
+    teacher = teacher_for(load_robot("hexapod"))
+    skills = {clause.action.skill for clause in teacher.policy}
+    assert "trot" in skills and not skills & {"run", "gallop"}
+    assert teacher_for(load_robot("go2")).policy == ScriptedTeacher().policy
 
 
 def test_rules_and_their_driver_go_together(capsys: pytest.CaptureFixture[str]) -> None:

@@ -3,6 +3,7 @@
 import json
 import os
 import sqlite3
+import tracemalloc
 from contextlib import closing
 
 import numpy as np
@@ -205,3 +206,38 @@ def test_a_book_with_flipped_bytes_is_refused_or_the_same(path, book):
         for left in path.parent.glob("a.skills-*"):
             left.unlink()
     assert unlike > 50
+
+
+@pytest.mark.parametrize("count", ["steps", "rules", "wishes", "trees", "ancestors"])
+def test_a_count_of_a_book_takes_no_memory_before_it_is_believed(path, count):
+    restate(path, "book", (0,), {count: 900_000})
+    told, peak = told_within(path)
+    assert peak < 5_000_000 and "900000" in told
+
+
+def test_events_that_a_step_claims_take_no_memory(path):
+    restate(path, "steps", (2,), {"events": 900_000})
+    told, peak = told_within(path)
+    assert peak < 5_000_000 and "do not belong together" in told
+
+
+def test_a_count_beyond_all_limits_is_refused(path):
+    restate(path, "steps", (2,), {"events": 10**12})
+    assert "events" in refused(path)
+
+
+def told_within(path):
+    """With which sentence a book is refused, and how much memory that took [bytes]."""
+    tracemalloc.start()
+    try:
+        return refused(path), tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+
+
+def restate(path, table, key, changed):
+    """Says something else in a row, under a seal that fits."""
+    with closing(sqlite3.connect(path, isolation_level=None)) as db:
+        where = " AND ".join(f"{name} = ?" for name in rows.KEYS[table])
+        (content,) = db.execute(f"SELECT content FROM {table} WHERE {where}", key).fetchone()
+        rows.put(db, {(table, key): json.dumps(json.loads(content) | changed)})

@@ -11,6 +11,7 @@ GROUPS = {
     "skills": ("skills", "transitions", "terrain", "anyrobot", "cost"),
     "mechanics": ("dynamics", "sharing", "streaming", "armstrong"),
     "rules": ("rules", "school", "kills"),
+    "strangers": ("fuzz",),
 }
 """Groups of claims, each claim the name of a module here, in the order in which they are measured."""
 

@@ -152,7 +152,9 @@ def add_teach(parser: argparse.ArgumentParser) -> None:
     robot = "a name that `gaitwright robots` lists, or an MJCF or URDF file (go2)"
     parser.add_argument("--robot", default="go2", metavar="NAME|FILE", help=robot)
     add_packages(parser)
-    parser.add_argument("--out", required=True, metavar="BOOK", help="a new skillbook, e.g. go2.skills")
+    parser.add_argument(
+        "--out", required=True, metavar="BOOK", help="a new skillbook, e.g. go2.skills, or one to go on with"
+    )
     start = "go on from this skillbook, also an older one; it stays as it is (begin with no rules)"
     parser.add_argument("--from", dest="start", metavar="BOOK", help=start)
     trips = "trips that the rules make with the teacher watching (60)"

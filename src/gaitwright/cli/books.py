@@ -6,12 +6,13 @@ from argparse import Namespace
 from dataclasses import asdict, replace
 from pathlib import Path
 
-from gaitwright.cli.book_files import SQLITE, content_of, new_file, skillbook_of
+from gaitwright.cli.book_files import SQLITE, check_there, new_file, skillbook_of
 from gaitwright.cli.console import remark, show_pairs, show_prose, working
 from gaitwright.cli.explain_text import counted
 from gaitwright.cli.output import check_json, write_json, write_whole
 from gaitwright.errors import BadFile, WrongUse
-from gaitwright.knowledge.json_form import loads
+from gaitwright.files import content_of, text_of
+from gaitwright.knowledge.json_form import MAX_BYTES, loads
 from gaitwright.skillbook.book import Skillbook, content_hash, export_text, import_text
 from gaitwright.skillbook.merging.merge import Merged, merge
 
@@ -123,16 +124,14 @@ def import_book(args: Namespace) -> None:
     """The book of a text in a new file; rules as JSON become a book that begins with them."""
     out = new_file(out_of(args), "skillbook")
     source = args.files[0]
-    content = content_of(source, "what `gaitwright books export` wrote")
+    check_there(source, "what `gaitwright books export` wrote")
+    content = content_of(source, "text", MAX_BYTES)
     if content.startswith(SQLITE):
         raise BadFile(f"{source} is a skillbook already: only text is imported")
     if content.lstrip()[:1] == b"{":
         book = Skillbook.new(loads(content, source), name=Path(source).stem)
     else:
-        try:
-            book = import_text(content.decode(), source)
-        except UnicodeDecodeError as error:
-            raise BadFile(f"{source} is no text: {error.reason} at byte {error.start}") from None
+        book = import_text(text_of(content, source), source)
     with working("taking its lessons again", worth_a_line=False):
         same = book.replayed() == book.rulebook
     book.save(out)

@@ -3,17 +3,21 @@
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from threading import Timer
 from time import perf_counter
 
 from rich.progress import BarColumn, Progress, TextColumn
 from rich.text import Text
 
-from gaitwright.cli.sentences import cut, tell
+from gaitwright.cli.sentences import tell
+from gaitwright.errors import told
 from gaitwright.locomotion import Lap
 from gaitwright.screen import Column, Row, paragraph, screen, show, table, width_of
 
 EVERY = 5.0
 """Where no terminal shows a moving bar, a line of progress comes this often [s]."""
+PATIENCE = 1.0
+"""What takes longer says what it is [s]."""
 REFRESH = 0.2
 """The moving bar is drawn this often [s]."""
 NAMES = 19
@@ -37,7 +41,7 @@ def show_pairs(title: str, pairs: Iterable[tuple[str, str]], to_stderr: bool) ->
     """A title, where there is one, and lines of name and value."""
     file = sys.stderr if to_stderr else sys.stdout
     width = width_of(file)
-    heading = ["", *(Text(line.plain, "bold") for line in paragraph(cut(title), width))] if title else []
+    heading = ["", *(Text(line.plain, "bold") for line in paragraph(told(title), width))] if title else []
     columns = (Column(style="dim"), Column(prose=True))
     rows = [(f"{name:{NAMES}}", value) for name, value in pairs]
     show([*heading, *(table(columns, rows, width, head=False) if rows else [])], file)
@@ -55,15 +59,32 @@ def show_heading(text: str) -> None:
 
 
 @contextmanager
-def working(what: str, worth_a_line: bool = True) -> Iterator[None]:
-    """Says what is being done: a spinner on a terminal, else a line where it is worth one."""
+def working(what: str, worth_a_line: bool | None = True) -> Iterator[None]:
+    """Says what is being done: a spinner on a terminal, else a line where it is worth one; `None`: once it
+    has taken a second."""
     if sys.stderr.isatty():
         with screen(sys.stderr).status(what):
             yield
-    else:
-        if worth_a_line:
-            remark(f"{what} …")
+    elif worth_a_line:
+        remark(f"{what} …")
         yield
+    elif worth_a_line is None:
+        with told_if_slow(what):
+            yield
+    else:
+        yield
+
+
+@contextmanager
+def told_if_slow(what: str) -> Iterator[None]:
+    """Says what is being done once it has taken a second."""
+    timer = Timer(PATIENCE, remark, [f"{what} …"])
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
 
 
 class Simulating:

@@ -45,7 +45,7 @@ MARKS = ("tree", "here", "▲ upper mark", "▲ moved there by", "▼ lower mark
 def run(args: Namespace) -> int:
     check_json(args.json)
     if args.out is not None:
-        import_module("gaitwright.cli.skills").check_picture(args.out)
+        args.out = import_module("gaitwright.cli.skills").check_picture(args.out)
     if args.at is not None and not args.recording:
         raise WrongUse("--at is a moment of a recording: name its file with --recording")
     rulebook = rulebook_of(args.book)

@@ -1,18 +1,33 @@
 """Where figures and files go: complete or not at all, and never over what is there."""
 
+import errno
 import os
 import sys
 from pathlib import Path
 
 from gaitwright.errors import WrongUse
-from gaitwright.files import whole
+from gaitwright.files import fitting, whole
+
+
+def settled(where: str, option: str) -> Path:
+    """The path that `where` leads to, to be checked and then written: as it was typed where it is plain, else
+    without `..` and links. Raises `WrongUse` for a name that no new file can have."""
+    if not where or not where.isprintable():
+        raise WrongUse(f"{option} {where}: a new file's name is of letters that can be printed")
+    try:
+        path = Path(where)
+        real = path.resolve()
+        real.exists()
+    except (OSError, RuntimeError, ValueError) as error:
+        raise WrongUse(f"{option} {where}: {getattr(error, 'strerror', None) or error}") from None
+    return path if real == path.absolute() else real
 
 
 def check_json(where: str | None) -> None:
     """`WrongUse` where `--json` names what cannot be written; asked before a long run, not after it."""
     if where is None or where == "-":
         return
-    path = Path(where).resolve()
+    path = settled(where, "--json")
     if path.is_dir():
         raise WrongUse(f"--json {where} is a folder; name a file in it")
     if not path.parent.is_dir():
@@ -26,17 +41,31 @@ def write_json(where: str | None, text: str) -> None:
     """Writes `text` to where `--json` says."""
     if where is None:
         return
+    text = text.encode("utf-8", "backslashreplace").decode()  # as JSON escapes what is no text
     if where == "-":
         print(text)
     elif is_special(Path(where)):
-        Path(where).write_text(text + "\n", encoding="utf-8")
+        write_special(Path(where), text + "\n")
     else:
         write_whole(Path(where).resolve(), text + "\n")
 
 
+def write_special(path: Path, text: str) -> None:
+    """Writes to a device or a pipe. Raises `WrongUse` for a pipe that nobody reads: it is not waited for."""
+    try:
+        place = os.open(path, os.O_WRONLY | getattr(os, "O_NONBLOCK", 0))
+    except OSError as error:
+        if error.errno == errno.ENXIO:
+            raise WrongUse(f"{path} is a pipe, and nobody reads it") from None
+        raise
+    os.set_blocking(place, True)
+    with fitting(path), open(place, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
 def write_whole(path: Path, text: str) -> None:
     """Writes a file, complete or not at all."""
-    with whole(path) as draft:
+    with fitting(path), whole(path) as draft:
         draft.write_text(text, encoding="utf-8")
 
 
@@ -45,11 +74,11 @@ def is_special(path: Path) -> bool:
     return path.exists() and not path.is_file()
 
 
-def check_folder(where: str | None) -> None:
-    """`WrongUse` where `--out` names what holds files already or cannot be made."""
+def check_folder(where: str | None) -> str | None:
+    """The folder that `--out` leads to; `WrongUse` where it holds files already or cannot be made."""
     if where is None:
-        return
-    path = Path(where)
+        return None
+    path = settled(where, "--out")
     if path.exists() and not path.is_dir():
         raise WrongUse(f"--out {where} is a file; name a new folder")
     if path.is_dir() and any(path.iterdir()):
@@ -57,6 +86,7 @@ def check_folder(where: str | None) -> None:
     nearest = next(parent for parent in [path.absolute(), *path.absolute().parents] if parent.exists())
     if not (nearest.is_dir() and os.access(nearest, os.W_OK)):
         raise WrongUse(f"--out {where}: no permission to write to {nearest}")
+    return str(path)
 
 
 def numbered_folder(stem: str) -> Path:

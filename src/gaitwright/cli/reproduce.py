@@ -3,9 +3,9 @@
 from argparse import Namespace
 
 from gaitwright import reproduce
-from gaitwright.cli.output import check_json
+from gaitwright.cli.output import check_json, settled
 
 
 def run(args: Namespace) -> int:
     check_json(args.json)
-    return reproduce.run(args.names, args.out, args.json)
+    return reproduce.run(args.names, str(settled(args.out, "--out")), args.json)

@@ -3,28 +3,23 @@
 Imports nothing heavy: help and errors are told before anything is loaded.
 """
 
-import re
 import sys
 from shutil import get_terminal_size
 from textwrap import wrap
 
-MOST = 200
-"""Letters of a name in a sentence."""
+from gaitwright.errors import told
 
 
 def tell(text: str) -> None:
-    """A sentence on the standard error: on a terminal broken between words, elsewhere one line."""
-    text = cut(text)
-    if sys.stderr.isatty():
-        text = "\n".join(between_words(text, get_terminal_size().columns))
-    print(text, file=sys.stderr, flush=True)
+    """A sentence on the standard error."""
+    print(fitted(told(text)), file=sys.stderr, flush=True)
 
 
-def cut(text: str) -> str:
-    """A sentence with the middle of every name left out that has more than `MOST` letters."""
-    return re.sub(
-        rf"\S{{{MOST + 1},}}", lambda long: f"{long[0][: MOST // 2]}…{long[0][1 - MOST // 2 :]}", text
-    )
+def fitted(sentence: str) -> str:
+    """A sentence for the standard error: on a terminal broken between words, elsewhere one line."""
+    if not sys.stderr.isatty():
+        return sentence
+    return "\n".join(between_words(sentence, get_terminal_size().columns))
 
 
 def between_words(text: str, width: int, indent: str = "") -> list[str]:

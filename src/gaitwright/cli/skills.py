@@ -7,7 +7,7 @@ from argparse import Namespace
 from pathlib import Path
 
 from gaitwright.cli.console import remark, show_table, working
-from gaitwright.cli.output import check_json, write_json
+from gaitwright.cli.output import check_json, settled, write_json
 from gaitwright.cli.trips import find_robot, has
 from gaitwright.errors import WrongUse
 from gaitwright.gait.leg_cycles.check import Fault, check_cycle
@@ -22,7 +22,7 @@ FOUND = ("skill", "speed", "what was found")
 
 def run(args: Namespace) -> int:
     check_json(args.json)
-    check_picture(args.out)
+    args.out = check_picture(args.out)
     cycle = load_cycle(args.cycle) if args.cycle else None
     robot = find_robot(args.robot, args.package)
     figures: dict = {"robot": robot.name, "skills": [facts_of(name, robot) for name in skill_names(robot.n)]}
@@ -123,13 +123,14 @@ def picture(
     return str(path)
 
 
-def check_picture(where: str | None) -> None:
-    """`WrongUse` where `--out` names what cannot be written as a picture."""
+def check_picture(where: str | None) -> str | None:
+    """The path that `--out` leads to; `WrongUse` where it names what cannot be written as a picture."""
     if where is None:
-        return
-    path = Path(where).absolute()
+        return None
+    path = settled(where, "--out").absolute()
     if path.suffix.lower() != ".png" or path.is_dir():
         raise WrongUse(f"--out {where}: the picture is a PNG file; name one that ends in .png")
     nearest = next(parent for parent in path.parents if parent.exists())
     if not (nearest.is_dir() and os.access(nearest, os.W_OK)):
         raise WrongUse(f"--out {where}: no permission to write to {nearest}")
+    return str(settled(where, "--out"))

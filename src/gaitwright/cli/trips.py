@@ -14,7 +14,7 @@ from gaitwright.cli.mechanics_check import Checks
 from gaitwright.cli.output import check_folder, check_json, write_json, write_whole
 from gaitwright.control.numerical import Method
 from gaitwright.description.load import load_robot_and_notes
-from gaitwright.errors import WrongUse
+from gaitwright.errors import WrongUse, told
 from gaitwright.ground.scene import Scene
 from gaitwright.locomotion import Brain, Lap
 from gaitwright.model.robot import Robot
@@ -46,14 +46,14 @@ class Setting:
 
 # --- before the run --------------------------------------------------------------------------------
 def check_outputs(args: Namespace) -> None:
-    """`WrongUse` where a result could not be written; nothing is made yet."""
+    """`WrongUse` where a result could not be written; nothing is made yet. `args.out` leads there."""
     check_json(args.json)
-    check_folder(args.out)
+    args.out = check_folder(args.out)
 
 
 def find_robot(asked: str, packages: Iterable[tuple[str, str]] = ()) -> Robot:
     """The robot of that name or file; what its file left open is told on the standard error."""
-    with working(f"loading {asked}", worth_a_line=False):
+    with working(f"loading {told(asked)}", worth_a_line=False):
         robot, notes = load_robot_and_notes(asked, dict(packages))
     for note in notes:
         remark(f"{robot.name}: {note}")
@@ -62,7 +62,8 @@ def find_robot(asked: str, packages: Iterable[tuple[str, str]] = ()) -> Robot:
 
 def find_scene(asked: str, seed: int, robot: Robot, start: list[float] | None = None) -> Scene:
     """The scene of that name or file, in the robot's size, with `start` (x, y, yaw) where given."""
-    scene = scene_for(robot, asked, seed)
+    with working(f"reading scene {told(asked)}", worth_a_line=None):
+        scene = scene_for(robot, asked, seed)
     if start is None:
         return scene
     x, y, yaw = start
@@ -84,9 +85,11 @@ def check_inside(what: str, point: tuple[float, float], scene: Scene) -> None:
 
 def set_up(robot: Robot, scene: Scene, chooser: Chooser, distribution: Method) -> Setting:
     """The brain of a robot in a scene. Raises `WrongUse` where the start is no place to stand."""
-    brain = Brain.of(robot, scene, chooser, DT, distribution)
     x, y, _ = scene.start
-    if Navigator(robot).view(brain.perception.ground).blocked((x, y)):
+    with working(f"mapping scene {scene.name}", worth_a_line=None):
+        brain = Brain.of(robot, scene, chooser, DT, distribution)
+        on_obstacle = Navigator(robot).view(brain.perception.ground).blocked((x, y))
+    if on_obstacle:
         raise WrongUse(
             f"the start ({x:g}, {y:g}) is on an obstacle of scene {scene.name}, or too near to one"
         )
@@ -119,7 +122,7 @@ def run(
     what = (
         "compiling the plant's kernels (first run only, up to two minutes)" if cold else "building the world"
     )
-    with working(what, worth_a_line=cold):
+    with working(what, worth_a_line=cold or None):
         plant = make_plant(
             args.plant,
             setting.robot,
@@ -154,7 +157,7 @@ def warm_up(setting: Setting, plant: Plant, mission: Mission) -> None:
     """Three ticks whose result is thrown away: compiles the kernels, or loads them from numba's cache."""
     cold = not is_warm()
     what = "compiling kernels (first run only, up to two minutes)" if cold else "loading compiled kernels"
-    with working(what, worth_a_line=cold):
+    with working(what, worth_a_line=cold or None):
         walk(setting.brain, plant, mission, 3 * DT)
 
 

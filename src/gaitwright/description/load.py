@@ -12,7 +12,8 @@ import msgspec
 
 from gaitwright.description.child import CPU_SECONDS, MEMORY_BYTES
 from gaitwright.description.reading import read_robot
-from gaitwright.errors import BadFile, WrongUse, unknown
+from gaitwright.errors import BadFile, WrongUse, short, unknown
+from gaitwright.files import is_there
 from gaitwright.model.catalogue import robot_file, robot_names
 from gaitwright.model.robot import Robot, robot_of
 
@@ -56,9 +57,11 @@ def load_robot_and_notes(
     if asked in robot_names():
         return built_in(asked)
     path = Path(asked)
-    if path.is_file():
+    if not is_there(path):
+        path = Path(short(asked))
+    elif path.is_file():
         return from_file(path, folders)
-    if path.is_dir():
+    elif path.is_dir():
         raise BadFile(f"{path}: a folder; expected an MJCF or URDF file")
     if path.suffix.lower() in SUFFIXES or len(path.parts) > 1:
         raise BadFile(f"{path}: no such file; expected an MJCF or URDF file")

@@ -10,8 +10,8 @@ from gaitwright.errors import WrongUse
 from gaitwright.ground import layouts, scene_file, scenes_list
 from gaitwright.ground.terrain import Box, Number, Surface
 
-BATCH = 1_000_000
-"""Most pairs of place and box looked at in one go: keeps memory small."""
+FEW = 100_000
+"""So many pairs of place and box are looked at in one go; of more, only those that may lie together."""
 
 
 @dataclass(frozen=True)
@@ -55,9 +55,10 @@ class Scene:
         x, y, _ = self.start
         level = float(self.height(x, y)) + step
         high = tuple(box for box in self.boxes if box.height > step)
-        floor = tuple(box for box in high if self.top(box) <= level)
+        low = tuple(box for box in high if self.top(box) <= level)
+        floor = set(low)
         x_min, y_min, x_max, y_max = self.bounds
-        if sum(box.lx * box.ly for box in floor) <= 0.5 * (x_max - x_min) * (y_max - y_min):
+        if sum(box.lx * box.ly for box in low) <= 0.5 * (x_max - x_min) * (y_max - y_min):
             return high
         return tuple(box for box in high if box not in floor)
 
@@ -65,14 +66,34 @@ class Scene:
         """Top of the highest box at a place [m], -inf where there is none."""
         x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
         places = np.column_stack([x.ravel(), y.ravel()])
-        parts = np.array_split(places, 1 + len(places) * len(self.boxes) // BATCH)
-        return np.concatenate([self._tops_at(part) for part in parts]).reshape(x.shape)
+        few = len(places) * len(self.boxes) <= FEW
+        return (self._tops_at(places) if few else self._tops_of_many(places)).reshape(x.shape)
 
     def _tops_at(self, places: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, " n"]:
+        """Every place held against every box."""
         x, y, c, s, half_x, half_y, top = self._box_columns
         dx, dy = places[:, :1] - x, places[:, 1:] - y
         covered = (np.abs(c * dx + s * dy) <= half_x) & (np.abs(c * dy - s * dx) <= half_y)
         return np.where(covered, top, -np.inf).max(axis=1)
+
+    def _tops_of_many(self, places: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, " n"]:
+        """Every box held against the places in its stretch of x alone."""
+        order = np.argsort(places[:, 0], kind="stable")
+        x, y = places[order].T
+        tops = np.full(len(order), -np.inf)
+        columns = self._box_columns
+        reach = np.hypot(columns[4], columns[5]) * (1 + 1e-9)
+        first, last = np.searchsorted(x, columns[0] - reach), np.searchsorted(x, columns[0] + reach, "right")
+        for (box_x, box_y, c, s, half_x, half_y, top), start, stop in zip(
+            np.transpose(columns), first, last, strict=True
+        ):
+            dx, dy = x[start:stop] - box_x, y[start:stop] - box_y
+            covered = (np.abs(c * dx + s * dy) <= half_x) & (np.abs(c * dy - s * dx) <= half_y)
+            part = tops[start:stop]
+            part[covered & (part < top)] = top
+        out = np.empty(len(order))
+        out[order] = tops
+        return out
 
     @cached_property
     def _box_columns(self) -> tuple[np.ndarray, ...]:

@@ -17,12 +17,16 @@ import msgspec
 import numpy as np
 from msgspec import Meta
 
-from gaitwright.errors import BadFile
+from gaitwright.errors import BadFile, printable, short
+from gaitwright.files import content_of, json_of
 from gaitwright.ground.terrain import Box, Flat, HeightField, Slope, Surface
 
 MAX_BYTES = 5_000_000
 MAX_BOXES = 2000
+MAX_NAME = 80
 MAX_NODES = 1000
+SMALLEST = 1e-4
+"""Of friction [-] and of the sides of a box [m]."""
 
 Place = Annotated[float, Meta(ge=-1000.0, le=1000.0)]
 Length = Annotated[float, Meta(gt=0.0, le=1000.0)]
@@ -69,7 +73,7 @@ class BoxEntry(Strict, frozen=True):
 
 
 class SceneEntry(Strict, frozen=True):
-    name: Annotated[str, Meta(max_length=80)] = ""
+    name: Annotated[str, Meta(max_length=MAX_NAME)] = ""
     surface: FlatEntry | SlopeEntry | HeightsEntry = FlatEntry()
     boxes: Annotated[list[BoxEntry], Meta(max_length=MAX_BOXES)] = []
     bounds: tuple[Place, Place, Place, Place] = (-4.0, -4.0, 10.0, 4.0)
@@ -79,17 +83,16 @@ class SceneEntry(Strict, frozen=True):
 
 def read(path: str) -> dict[str, Any]:
     """The fields of a `Scene` from a JSON file. Raises `BadFile` with one sentence."""
-    content = _content(path)
+    content, asked = content_of(path, "scene file", MAX_BYTES), f"scene file {short(path)}"
     try:
-        entry = msgspec.json.decode(content, type=SceneEntry)
+        entry = json_of(content, SceneEntry, asked)
     except msgspec.ValidationError as error:
-        raise BadFile(f"scene file {path}: {_sentence(str(error), content)}") from None
-    except (msgspec.DecodeError, RecursionError) as error:
-        raise BadFile(f"scene file {path} is not JSON: {error}") from None
-    _check(path, entry)
+        raise BadFile(f"{asked}: {_sentence(str(error), content)}") from None
+    _check(asked, entry)
+    _check_small(asked, entry)
     boxes = tuple(Box(**msgspec.structs.asdict(box)) for box in entry.boxes)
     return {
-        "name": entry.name or Path(path).stem,
+        "name": printable(entry.name or Path(path).stem)[:MAX_NAME],
         "surface": entry.surface.surface(),
         "boxes": boxes,
         "bounds": entry.bounds,
@@ -98,32 +101,28 @@ def read(path: str) -> dict[str, Any]:
     }
 
 
-def _content(path: str) -> bytes:
-    """What the file holds, at most `MAX_BYTES`."""
-    try:
-        with open(path, "rb") as file:
-            content = file.read(MAX_BYTES + 1)
-    except OSError as error:
-        raise BadFile(f"scene file {path} cannot be read: {error.strerror}") from None
-    if len(content) > MAX_BYTES:
-        raise BadFile(f"scene file {path} is larger than the limit of {MAX_BYTES / 1e6:g} MB")
-    return content
-
-
-def _check(path: str, entry: SceneEntry) -> None:
+def _check(asked: str, entry: SceneEntry) -> None:
     """What types cannot say. Raises `BadFile`."""
     x_min, y_min, x_max, y_max = entry.bounds
     x, y, _ = entry.start
     if not (x_min < x_max and y_min < y_max):
-        raise BadFile(
-            f"scene file {path}: bounds is {list(entry.bounds)}, expected x_min, y_min, x_max, y_max"
-        )
+        raise BadFile(f"{asked}: bounds is {list(entry.bounds)}, expected x_min, y_min, x_max, y_max")
     if not (x_min <= x <= x_max and y_min <= y <= y_max):
         raise BadFile(
-            f"scene file {path}: start is {list(entry.start)}, which lies outside bounds {list(entry.bounds)}"
+            f"{asked}: start is {list(entry.start)}, which lies outside bounds {list(entry.bounds)}"
         )
     if isinstance(entry.surface, HeightsEntry) and len({len(row) for row in entry.surface.heights}) > 1:
-        raise BadFile(f"scene file {path}: surface.heights has rows of different lengths")
+        raise BadFile(f"{asked}: surface.heights has rows of different lengths")
+
+
+def _check_small(asked: str, entry: SceneEntry) -> None:
+    """Raises `BadFile` for a number that is not zero, but too small for physics."""
+    sizes = {"friction": entry.friction}
+    for k, box in enumerate(entry.boxes):
+        sizes |= {f"boxes[{k}].{name}": getattr(box, name) for name in ("lx", "ly", "height")}
+    for name, value in sizes.items():
+        if value < SMALLEST:
+            raise BadFile(f"{asked}: {name} is {value}: expected at least {SMALLEST:g}")
 
 
 def _sentence(message: str, content: bytes) -> str:
@@ -136,7 +135,10 @@ def _sentence(message: str, content: bytes) -> str:
         value = json.loads(content)
     except (ValueError, RecursionError):
         return message
-    for key, index in re.findall(r"(\w+)|\[(\d+)\]", field):
-        value = value[key] if key else value[int(index)]
+    try:
+        for key, index in re.findall(r"(\w+)|\[(\d+)\]", field):
+            value = value[key] if key else value[int(index)]
+    except (LookupError, TypeError):
+        return message
     text = repr(value)
     return f"{field} is {text if len(text) <= 60 else text[:57] + '...'}: {what[0].lower()}{what[1:]}"

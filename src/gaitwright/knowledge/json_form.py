@@ -7,6 +7,7 @@ import msgspec
 from msgspec import Meta
 
 from gaitwright.errors import BadFile, WrongUse
+from gaitwright.files import json_of
 from gaitwright.knowledge.forest import MAX_TREES, Forest, Situation
 from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.modifier import audit
@@ -24,7 +25,7 @@ from gaitwright.knowledge.rules import (
 from gaitwright.knowledge.trees import MAX_LABEL, MAX_LEAVES, FeatureTree
 
 FORMAT = 1
-MAX_BYTES = 100_000_000
+MAX_BYTES = 50_000_000
 MAX_INSTANCES = 100_000
 MAX_EVENTS = 1_000_000
 
@@ -32,7 +33,7 @@ Label = Annotated[str, Meta(max_length=MAX_LABEL)]
 Text = Annotated[str, Meta(max_length=10_000)]
 Fact = Text | float
 Facts = Annotated[dict[Label, Fact], Meta(max_length=1000)]
-Count = Annotated[int, Meta(ge=0)]
+Count = Annotated[int, Meta(ge=0, le=1 << 53)]
 Leaves = Annotated[tuple[Label | None, ...], Meta(min_length=1, max_length=MAX_TREES)]
 Pairs = Annotated[tuple[tuple[Label, Fact], ...], Meta(max_length=1000)]
 
@@ -131,11 +132,9 @@ def loads(content: bytes, source: str = "rulebook") -> Rulebook:
     if len(content) > MAX_BYTES:
         raise BadFile(f"{source} is larger than the limit of {MAX_BYTES / 1e6:g} MB")
     try:
-        entry = msgspec.json.decode(content, type=BookEntry)
+        entry = json_of(content, BookEntry, source)
     except msgspec.ValidationError as error:
         raise BadFile(f"{source}: {error}") from None
-    except (msgspec.DecodeError, RecursionError) as error:
-        raise BadFile(f"{source} is not JSON: {error}") from None
     return _checked(entry, source)
 
 

@@ -4,9 +4,10 @@ Everything here runs on kinematic trips (`learning.kinematic`), so that a whole 
 learned then drives real ones.
 """
 
+import re
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import groupby
 
 import numpy as np
@@ -25,15 +26,18 @@ from gaitwright.learning.courses import course
 from gaitwright.learning.critic import DecisionPoint
 from gaitwright.learning.exam import firm_share, is_right
 from gaitwright.learning.kinematic import moments_of
-from gaitwright.learning.teacher import ScriptedTeacher, Teacher
+from gaitwright.learning.teacher import ScriptedTeacher, Teacher, teacher_for
 from gaitwright.learning.trips import SCHOOL, teacher_drives, trips
 from gaitwright.model.robot import Robot
+from gaitwright.skillbook.history import Step
 from gaitwright.skillbook.writer import Ledger
 from gaitwright.skills.book_trees import up_to_date
 from gaitwright.skills.situation import FOREST
 
 KINDS_OF_RULES = 13
 """So many rules are looked for before there are demonstrations enough."""
+MOST_TRIPS = 400_000
+"""Trips by rules of one seed: beyond these lie the courses of the next."""
 AT_FIRST = 2
 """Demonstrations of each skill before the rules may try."""
 
@@ -66,6 +70,16 @@ class SchoolReport:
 
 
 @dataclass(frozen=True, slots=True)
+class Reached:
+    """How far an interrupted school came: so many trips, so many moments of the next, and how often each rule
+    was corrected on them."""
+
+    trip: int = 0
+    moment: int = 0
+    corrected: Counter[str] = field(default_factory=Counter)
+
+
+@dataclass(frozen=True, slots=True)
 class Schooled:
     """A rulebook and how it came to be."""
 
@@ -79,6 +93,7 @@ def demonstrations(
     """Stretches of the teacher's trips, up to `per_skill` of each skill and from as many trips, at most
     `longest` moments each, evenly taken."""
     found: dict[str, list[Demonstration]] = {}
+    kinds = len(teacher.policy) if isinstance(teacher, ScriptedTeacher) else KINDS_OF_RULES
     for trip in trips(robot, teacher, SCHOOL * 1000 + seed):
         shown_here = set()
         for rule, stretch in groupby(trip, key=lambda moment: teacher.ideal(moment.raw).rule):
@@ -87,11 +102,7 @@ def demonstrations(
             if len(enough) < per_skill and rule not in shown_here:
                 shown_here.add(rule)
                 enough.append(Demonstration(rule, spread(moments, longest)))
-        if (
-            found
-            and all(len(enough) >= per_skill for enough in found.values())
-            and len(found) >= KINDS_OF_RULES
-        ):
+        if found and all(len(enough) >= per_skill for enough in found.values()) and len(found) >= kinds:
             break
     return tuple(shown for row in found.values() for shown in row)
 
@@ -136,27 +147,31 @@ def attend(  # noqa: PLR0913 - a whole school; every setting has its default
     progress: Callable[[str, int, int], None] | None = None,
     keep: Callable[[Studied], None] | None = None,
     start: Rulebook | None = None,
+    reached: Reached | None = None,
 ) -> Schooled:
     """The whole school: demonstrations first, then trips that the rules decide and the teacher watches.
 
     She shows each skill at most `per_skill` times: some of these at first, the others where the rules go
     wrong. `progress` is told what is going on, how much of it is done, and how much there is; `keep` gets
     what was learned since it was last called, to put it away before anything else is learned; `start` has
-    rules that are known already (none).
+    rules that are known already (none), and `reached` says how far an interrupted school came with them.
     """
-    teacher = teacher or ScriptedTeacher()
+    teacher = teacher or teacher_for(robot)
     tell = progress or (lambda what, done, of: None)
     shown = demonstrations(robot, teacher, seed, min(AT_FIRST, per_skill))
     tell("demonstrations", 0, len(shown))
-    studied = demonstrate(up_to_date(start or Rulebook(FOREST)), teacher, shown)
+    begun = up_to_date(start or Rulebook(FOREST))
+    studied = demonstrate(begun, teacher, shown) if reached is None else Studied(begun)
     tell("demonstrations", len(shown), len(shown))
     keep = keep or (lambda _: None)
     keep(studied)
     times = Counter(one.rule for one in shown)
+    reached = reached or Reached()
+    times.update(reached.corrected)
     interventions = []
-    for k in range(trips_watched):
-        number = (SCHOOL * 1000 + seed) * 1_000_000 + 500_000 + k
-        watched = watch(studied.rulebook, robot, teacher, number, times, per_skill)
+    for k in range(reached.trip, trips_watched):
+        after = reached.moment if k == reached.trip else 0
+        watched = watch(studied.rulebook, robot, teacher, first_trip(seed) + k, times, per_skill, after)
         interventions.append(watched.corrections)
         studied = studied.then(watched)
         keep(watched)
@@ -193,17 +208,50 @@ def catch_up(ledger: Ledger) -> Rulebook:
     return new
 
 
-def watch(
-    rulebook: Rulebook, robot: Robot, teacher: Teacher, number: int, times: Counter[str], per_skill: int
+def first_trip(seed: int) -> int:
+    """The number of the course of the first trip that the rules make."""
+    return (SCHOOL * 1000 + seed) * 1_000_000 + 500_000
+
+
+def reached_in(steps: Sequence[Step], seed: int) -> Reached | None:
+    """How far a school of this seed came, by the lessons in a book; `None` before the rules made a trip.
+
+    What a moment taught is in the book in whole, or it ends in a contradiction: then it is taught again.
+    """
+    corrected: dict[tuple[str, str], None] = {}
+    last: tuple[int, int, bool] | None = None
+    for step in steps:
+        found = re.search(r"\(seed (\d+)\), moment (\d+)$", step.lesson.id) if step.lesson else None
+        trip = int(found[1]) - first_trip(seed) if found else -1
+        if found is None or step.lesson is None or not 0 <= trip < MOST_TRIPS:
+            continue
+        if step.how == "taught":
+            corrected[step.lesson.id, step.lesson.rule] = None
+        last = trip, int(found[2]), bool(step.note) and step.how != "mended"
+    if last is None:
+        return None
+    trip, moment, is_open = last
+    return Reached(trip, moment - is_open, Counter(rule for _, rule in corrected))
+
+
+def watch(  # noqa: PLR0913 - a trip, and how far it was watched before
+    rulebook: Rulebook,
+    robot: Robot,
+    teacher: Teacher,
+    number: int,
+    times: Counter[str],
+    per_skill: int,
+    after: int = 0,
 ) -> Studied:
     """One trip: at each moment the rules choose; what is right is confirmed, what is wrong corrected once.
 
     The teacher takes over at a wrong choice, so the trip goes on as she would have it. `times` counts how
-    often she showed each skill; beyond `per_skill` she lets a mistake pass.
+    often she showed each skill; beyond `per_skill` she lets a mistake pass. The first `after` moments were
+    watched before.
     """
     rng = np.random.default_rng([number, 7])
     studied = Studied(rulebook)
-    for moment in moments_of(course(robot, number), teacher_drives(robot, teacher), rng):
+    for moment in moments_of(course(robot, number), teacher_drives(robot, teacher), rng)[after:]:
         rule = teacher.ideal(moment.raw).rule
         if times[rule] >= per_skill and not is_right(studied.rulebook, teacher, moment):
             continue

@@ -1,10 +1,12 @@
 """Whoever knows which skill is right: what the school asks of a teacher, and one who is written down."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol, runtime_checkable
 
 from gaitwright.knowledge.memory import Action
+from gaitwright.model.robot import Robot
+from gaitwright.skills.library import skill_names
 
 Raw = Mapping[str, float]
 """What the teacher sees: the measured numbers of `skills.situation.measured`."""
@@ -200,3 +202,10 @@ class ScriptedTeacher:
     def line(self, raw: Raw) -> Clause:
         """The first line of the policy that holds."""
         return next(clause for clause in self.policy if clause.holds(raw))
+
+
+def teacher_for(robot: Robot) -> ScriptedTeacher:
+    """Who teaches a robot: her policy asks for the skills that it has, and the last line holds anyhow."""
+    has = skill_names(robot.n)
+    *lines, last = (clause for clause in POLICY if clause.action.skill in has)
+    return ScriptedTeacher((*lines, replace(last, holds=_anyhow)))

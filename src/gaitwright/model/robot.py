@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from jaxtyping import Float, Int
 
+from gaitwright.errors import printable
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import GRAVITY
 from gaitwright.numerics.packing import Layout
@@ -184,7 +185,8 @@ def robot_of(values: dict[str, Any]) -> Robot:
     """The robot of what `lists_of` gave, in older recordings too."""
     values = {"nominal_feet" if name == "stance" else name: value for name, value in values.items()}
     arrays: dict[str, Any] = {name: np.array(v) for name, v in values.items() if isinstance(v, list)}
-    return Robot(**{**values, **arrays, "legs": tuple(values["legs"])})
+    own = {"name": printable(str(values["name"])), "legs": tuple(values["legs"])}
+    return Robot(**{**values, **arrays, **own})
 
 
 @kernel

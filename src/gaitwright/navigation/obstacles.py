@@ -1,16 +1,20 @@
 """What a path keeps clear of, seen from above: boxes grown by the robot's half width, the edge."""
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
+import numpy as np
 import shapely
-from shapely import Polygon
+from shapely import Polygon, STRtree
 
 from gaitwright.model.robot import Robot
 from gaitwright.signals import GroundMap
 
 CLEARANCE = 0.15
 """Room beside the robot's feet, in body lengths."""
+
+HAIR = 1e-6
+"""Less than this is no room [m]."""
 
 
 @dataclass(frozen=True)
@@ -31,8 +35,32 @@ class PlanView:
 
     def blocked(self, point: tuple[float, float]) -> bool:
         """Whether a point lies within a grown obstacle."""
-        place = shapely.Point(point)
-        return any(o.contains(place) for o in self.obstacles)
+        return len(self._grown.query(shapely.Point(point), predicate="within")) > 0
+
+    def hidden(self, lines: np.ndarray) -> np.ndarray:
+        """Which lines enter an obstacle; each of these is shrunk by a hair, so that one may run along it."""
+        hidden = np.zeros(len(lines), dtype=bool)
+        hidden[self._shrunk.query(lines, predicate="intersects")[0]] = True
+        return hidden
+
+    def joined(self, start: tuple[float, float], goal: tuple[float, float]) -> bool:
+        """Whether any way leads from one point to another."""
+        ends = shapely.points([start, goal])
+        return any((shapely.distance(room, ends) < HAIR).all() for room in self._rooms)
+
+    @cached_property
+    def _grown(self) -> STRtree:
+        return STRtree(self.obstacles)
+
+    @cached_property
+    def _shrunk(self) -> STRtree:
+        return STRtree([obstacle.buffer(-HAIR) for obstacle in self.obstacles])
+
+    @cached_property
+    def _rooms(self) -> tuple[Polygon, ...]:
+        """The parts of the field from none of which a way leads to another."""
+        free = self.field.difference(shapely.union_all(self._shrunk.geometries))
+        return tuple(getattr(free, "geoms", [free]))
 
     def corners(self) -> list[tuple[float, float]]:
         """Corners of the grown obstacles, inner rings too."""

@@ -6,12 +6,18 @@ No graph is stored: on the scenes we plan in, lazy A* re-plans in under a millis
 import heapq
 import math
 
+import numpy as np
 import shapely
 from shapely import LineString
 
 from gaitwright.navigation.obstacles import PlanView
 
 Point = tuple[float, float]
+MANY = 400
+"""Among more corners than this a corner looks at those near to it first: the path is then short, if not
+always the shortest."""
+NEAREST = 48
+"""So many."""
 
 
 def shortest_path(view: PlanView, start: Point, goal: Point) -> tuple[Point, ...] | None:
@@ -23,7 +29,23 @@ def shortest_path(view: PlanView, start: Point, goal: Point) -> tuple[Point, ...
         free = view.nearest_free(start)
         onwards = shortest_path(view, free, goal)
         return None if onwards is None else (free, *onwards)
-    nodes = [start, goal, *(p for p in view.corners() if view.inside(p))]
+    corners = view.corners()
+    inside = shapely.contains_xy(view.field, np.array(corners).reshape(-1, 2))
+    nodes = [start, goal, *(corner for corner, kept in zip(corners, inside, strict=True) if kept)]
+    if not view.joined(start, goal):
+        return None
+    most = len(nodes) if len(nodes) <= MANY else NEAREST
+    path = search(view, nodes, most)
+    while path is None and most < len(nodes):
+        most *= 4
+        path = search(view, nodes, most)
+    return path if path is None or most >= len(nodes) else pulled(view, start, path)
+
+
+def search(view: PlanView, nodes: list[Point], most: int) -> tuple[Point, ...] | None:
+    """The shortest path from the first to the second node, each looking only at the `most` nearest."""
+    start, goal = nodes[:2]
+    places = np.array(nodes)
     best = {start: 0.0}
     parent: dict[Point, Point] = {}
     queue = [(math.dist(start, goal), start)]
@@ -35,7 +57,7 @@ def shortest_path(view: PlanView, start: Point, goal: Point) -> tuple[Point, ...
         if here in closed:
             continue
         closed.add(here)
-        for there in visible(view, here, [n for n in nodes if n not in closed]):
+        for there in visible(view, here, near(nodes, places, here, most, closed)):
             cost = best[here] + math.dist(here, there)
             if cost < best.get(there, math.inf):
                 best[there], parent[there] = cost, here
@@ -43,15 +65,31 @@ def shortest_path(view: PlanView, start: Point, goal: Point) -> tuple[Point, ...
     return None
 
 
+def near(nodes: list[Point], places: np.ndarray, here: Point, most: int, closed: set[Point]) -> list[Point]:
+    """The nodes that are not closed: all, or the `most` nearest of all, and the goal."""
+    if most >= len(nodes):
+        return [node for node in nodes if node not in closed]
+    away = np.hypot(*(places - here).T)
+    nearest = [1, *np.argpartition(away, most)[:most]]
+    return [nodes[k] for k in dict.fromkeys(nearest) if nodes[k] not in closed]
+
+
+def pulled(view: PlanView, start: Point, path: tuple[Point, ...]) -> tuple[Point, ...]:
+    """A path without the points that a straight line leaves out."""
+    out, here, left = [], start, list(path)
+    while left:
+        seen = visible(view, here, left)
+        last = max((k for k, point in enumerate(left) if point in seen), default=0)
+        here, left = left[last], left[last + 1 :]
+        out.append(here)
+    return tuple(out)
+
+
 def visible(view: PlanView, here: Point, nodes: list[Point]) -> list[Point]:
     """Those of `nodes` that a straight line from `here` reaches without entering an obstacle."""
     if not nodes:
         return []
-    lines = shapely.linestrings([[here, n] for n in nodes])
-    hidden = shapely.disjoint(lines, lines)
-    for obstacle in view.obstacles:
-        # Shrunk by a hair, so that a line may run along an edge.
-        hidden |= shapely.intersects(obstacle.buffer(-1e-6), lines)
+    hidden = view.hidden(shapely.linestrings([[here, n] for n in nodes]))
     return [n for n, h in zip(nodes, hidden, strict=True) if not h]
 
 

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from mcap_ros2.writer import Writer
 
-from gaitwright.files import whole
+from gaitwright.files import fitting, whole
 from gaitwright.ground.scene import Scene
 from gaitwright.model.robot import Robot
 from gaitwright.model.urdf import Names, write_urdf
@@ -25,7 +25,6 @@ from gaitwright.numerics.geometry import quaternion_of
 from gaitwright.plant.mujoco.world import JOINTS
 from gaitwright.record.channels import SCAN
 from gaitwright.record.metrics import stretches
-from gaitwright.record.npz import fitting
 from gaitwright.record.recording import Recording
 from gaitwright.record.rows import parts
 from gaitwright.record.scene_of import scene_of

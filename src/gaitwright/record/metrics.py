@@ -156,12 +156,13 @@ def joint_work(tau: Series, qd: Series, dt: float) -> float:
 
 
 def tick_times(took: Series, driver: Series, names: Iterable[str]) -> dict[str, dict[str, float]]:
-    """Median and 99th percentile [µs] of the whole lap and of each driver's controller."""
+    """Median and 99th percentile [µs] of the whole lap and of the controller of each driver that ticked."""
     every = list(parts(len(took)))
     out = {"lap": middle_and_tail(np.concatenate([took[part][:, 0].copy() for part in every]))}
     for number, name in enumerate(names):
         own = np.concatenate([took[part][driver[part] == number, 1] for part in every])
-        out[name] = middle_and_tail(own)
+        if len(own):
+            out[name] = middle_and_tail(own)
     return out
 
 

@@ -1,6 +1,8 @@
 """Channels ↔ `.npz`: as numpy writes and reads it, but a part at a time, so that length costs no memory."""
 
-import errno
+import os
+import struct
+import tokenize
 import zipfile
 import zlib
 from collections.abc import Iterator, Mapping
@@ -8,14 +10,24 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import IO
 
+import msgspec
 import numpy as np
 from numpy.lib import format as npy
 
-from gaitwright.errors import BadFile, NoRoom
-from gaitwright.files import whole
+from gaitwright.errors import BadFile, short
+from gaitwright.files import fitting, opened_file, whole
 from gaitwright.record.rows import BLOCK, Series, parts
 
 HEADER = "header"
+MAX_BYTES = 4_000_000_000
+"""Of a file; an hour of a robot of four legs has 1.1 GB before it is packed."""
+MOST_PACKED, PLENTY = 100, 50_000_000
+"""A recording unpacks to at most this many times its size; below so many bytes to anything."""
+MAX_HEADER = 1_000_000
+MAX_HEAD = 10_000
+"""Letters in which an array says what it is."""
+MAX_TICKS = 10_000_000
+"""More than a simulated hour at any step of ours."""
 BROKEN = (
     OSError,
     ValueError,
@@ -23,6 +35,11 @@ BROKEN = (
     LookupError,
     EOFError,
     NotImplementedError,
+    RecursionError,
+    struct.error,
+    tokenize.TokenError,
+    SyntaxError,
+    msgspec.MsgspecError,
     zipfile.BadZipFile,
     zlib.error,
 )
@@ -35,17 +52,6 @@ def write_npz(path: Path, header: bytes, channels: Mapping[str, Series]) -> None
         write_array(archive, HEADER, np.frombuffer(header, dtype=np.uint8))
         for name, series in channels.items():
             write_array(archive, name, series)
-
-
-@contextmanager
-def fitting(path: Path) -> Iterator[None]:
-    """Raises `NoRoom` where what is written to `path` meets a full disk."""
-    try:
-        yield
-    except OSError as error:
-        if error.errno not in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG):
-            raise
-        raise NoRoom(f"no room for {path}: {error.strerror}") from error
 
 
 def write_array(archive: zipfile.ZipFile, name: str, series: Series) -> None:
@@ -62,17 +68,39 @@ def write_array(archive: zipfile.ZipFile, name: str, series: Series) -> None:
 @contextmanager
 def opened(path: Path) -> Iterator[zipfile.ZipFile]:
     """The archive in a file. Raises `BadFile` for whatever is wrong with it while it is read."""
-    try:
-        with zipfile.ZipFile(path) as archive:
-            yield archive
-    except BROKEN as error:
-        raise BadFile(f"{path} is not a recording: {error}") from error
+    name = short(str(path))
+    with opened_file(path, "recording", MAX_BYTES) as file:
+        try:
+            with zipfile.ZipFile(file) as archive:
+                check_sizes(archive, os.fstat(file.fileno()).st_size)
+                yield archive
+        except BROKEN as error:
+            raise BadFile(f"{name} is not a recording: {error}") from error
+
+
+def check_sizes(archive: zipfile.ZipFile, packed: int) -> None:
+    """Raises `ValueError` for what unpacks to more than walks do."""
+    size = sum(info.file_size for info in archive.infolist())
+    if size > max(PLENTY, MOST_PACKED * packed):
+        raise ValueError(f"its {packed / 1e6:.3g} MB unpack to {size / 1e6:.3g} MB, which no walk does")
+
+
+def member(archive: zipfile.ZipFile, name: str) -> IO[bytes] | zipfile.ZipExtFile:
+    """An array in the archive, stored or deflated: other ways to pack have limits of their own.
+    Raises `KeyError` where there is none, `ValueError` where it is packed otherwise."""
+    info = archive.getinfo(f"{name}.npy")
+    if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+        raise ValueError(f"{name} is packed in a way that recordings are not")
+    return archive.open(info)
 
 
 def read_header(archive: zipfile.ZipFile) -> bytes:
-    """The JSON that is kept beside the channels."""
-    with archive.open(f"{HEADER}.npy") as file:
-        return npy.read_array(file, allow_pickle=False).tobytes()
+    """The JSON that is kept beside the channels. Raises `ValueError` where it is none, or too long."""
+    with member(archive, HEADER) as file:
+        length = length_of(file, HEADER, 1, np.uint8)
+        if length > MAX_HEADER:
+            raise ValueError(f"its header has {length} bytes; at most {MAX_HEADER} are read")
+        return file.read(length)
 
 
 def read_blocks(
@@ -81,11 +109,13 @@ def read_blocks(
     """All rows `(rows, width)`, some at a time; NaN for optional channels that are not there."""
     held = {name.removesuffix(".npy") for name in archive.namelist()}
     wanted = [name for name in widths if name in held or name not in optional]
-    files = {name: archive.open(f"{name}.npy") for name in wanted}
+    files = {name: member(archive, name) for name in wanted}
     lengths = {length_of(file, name, widths[name]) for name, file in files.items()}
     if len(lengths) > 1:
         raise ValueError("its channels differ in length")
-    for part in parts(max(lengths), BLOCK):
+    if not 0 < (length := max(lengths)) <= MAX_TICKS:
+        raise ValueError(f"it has {length} ticks; expected are 1 to {MAX_TICKS}")
+    for part in parts(length, BLOCK):
         shapes = {name: (part.stop - part.start, width) for name, width in widths.items()}
         columns = [
             numbers(files[name], shape) if name in files else np.full(shape, np.nan)
@@ -94,12 +124,14 @@ def read_blocks(
         yield np.concatenate(columns, axis=1)
 
 
-def length_of(file: IO[bytes] | zipfile.ZipExtFile, name: str, width: int) -> int:
+def length_of(file: IO[bytes] | zipfile.ZipExtFile, name: str, width: int, wanted: type = np.float64) -> int:
     """How many rows of float64 a member has, by its head. Raises `ValueError` where it is not as wide."""
-    npy.read_magic(file)
-    shape, by_column, kind = npy.read_array_header_1_0(file)
-    if by_column or kind != np.float64 or shape != shape[:1] + (() if width == 1 else (width,)):
-        raise ValueError(f"channel {name} is {shape} of {kind}; expected is {width} of float64 a tick")
+    if npy.read_magic(file) != (1, 0):
+        raise ValueError(f"{name} is an array of another version of numpy's format")
+    shape, by_column, kind = npy.read_array_header_1_0(file, max_header_size=MAX_HEAD)
+    if by_column or kind != wanted or shape != shape[:1] + (() if width == 1 else (width,)) or not shape:
+        expected = f"{width} of {np.dtype(wanted)} a tick"
+        raise ValueError(f"channel {name} is {shape} of {kind}; expected is {expected}")
     return shape[0]
 
 

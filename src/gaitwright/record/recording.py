@@ -10,10 +10,11 @@ from jaxtyping import Float
 
 from gaitwright.errors import NoRoom
 from gaitwright.locomotion import Lap
-from gaitwright.model.robot import Robot, lists_of, robot_of
+from gaitwright.model.robot import Robot, lists_of
 from gaitwright.numerics.geometry import GRAVITY
 from gaitwright.record import metrics as figures
-from gaitwright.record.channels import SITUATION, STATE, Packer, always, columns_of, widths
+from gaitwright.record.channels import SITUATION, STATE, Packer, columns_of, widths
+from gaitwright.record.checked import check_rows, header_of, sound_rows
 from gaitwright.record.metrics import Report
 from gaitwright.record.npz import opened, read_blocks, read_header, write_npz
 from gaitwright.record.rows import BLOCK, Lazy, Table, Writer, filled, parts
@@ -88,10 +89,7 @@ class Recording:
 
     def sound(self) -> "Recording":
         """The part in which every number is one: what figures are made of when a simulation blew up."""
-        numbers = slice(0, always(self.robot.n))
-        small = parts(len(self), BLOCK)
-        with np.errstate(invalid="ignore"):
-            good = [(np.abs(self.data[part, numbers]) < 1e12).all(axis=1) for part in small]
+        good = [sound_rows(self.data[part, :], self.robot.n) for part in parts(len(self), BLOCK)]
         if all(kept.all() for kept in good):
             return self
         writer = Writer(self.data.shape[1])
@@ -193,15 +191,16 @@ class Recorder:
 
 # --- files ------------------------------------------------------------------------------------------
 def load(path: str | Path) -> Recording:
-    """The recording in a file. Raises `BadFile` where the file is not one."""
+    """The recording in a file. Raises `BadFile` where the file is not one, or holds what none can."""
+    sound = False
     with opened(Path(path)) as archive:
-        header = json.loads(read_header(archive))
-        robot = robot_of(header["robot"])
-        own: dict[str, Any] = {
-            name: tuple(header[name]) if name in ("skills", "drivers") else header[name] for name in HEADER
-        }
+        robot, own = header_of(read_header(archive))
         channels = widths(robot.n)
         writer = Writer(sum(channels.values()))
         for block in read_blocks(archive, channels, optional=SITUATION):
+            check_rows(block, robot.n, len(own["skills"]), len(own["drivers"]))
+            sound = sound or bool(sound_rows(block, robot.n).any())
             writer.extend(block)
+        if not sound:
+            raise ValueError("none of its ticks holds only numbers")
         return Recording(robot=robot, data=writer.table(), **own)

@@ -8,8 +8,10 @@ from msgspec import Meta
 from gaitwright.errors import BadFile, WrongUse
 from gaitwright.knowledge.forest import MAX_TREES, Situation
 from gaitwright.knowledge.json_form import (
+    MAX_EVENTS,
     ActionEntry,
     BookEntry,
+    Count,
     EventEntry,
     Facts,
     InstanceEntry,
@@ -26,7 +28,7 @@ from gaitwright.knowledge.rules import Event, Rulebook
 from gaitwright.skillbook.history import Ancestor, How, Step
 
 T = TypeVar("T")
-Place = Annotated[int, Meta(ge=0)]
+Place = Annotated[int, Meta(ge=0, le=MAX_EVENTS)]
 Whole = Annotated[int, Meta(ge=-(1 << 62), le=1 << 62)]
 
 
@@ -37,7 +39,7 @@ class About(Strict, frozen=True):
     robot: Label
     made_by: Label
     seed: Whole
-    lessons: Place
+    lessons: Count
     steps: Place = 0
     rules: Place = 0
     wishes: Place = 0

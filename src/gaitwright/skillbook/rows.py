@@ -155,7 +155,7 @@ def _read(db: sqlite3.Connection, table: str, kind: type[T], source: str) -> dic
 
 def _row_of(found: Mapping[tuple, T], count: int, what: str, source: str) -> tuple[T, ...]:
     """Rows that stand in a row, none missing."""
-    if [key[-1] for key in found] != list(range(count)):
+    if len(found) != count or [key[-1] for key in found] != list(range(count)):
         raise BadFile(f"{source} is damaged: of {count} {what} it has {len(found)}, or in no order")
     return tuple(found.values())
 
@@ -163,14 +163,15 @@ def _row_of(found: Mapping[tuple, T], count: int, what: str, source: str) -> tup
 def _events(
     found: Mapping[tuple, EventEntry], steps: tuple[StepEntry, ...], source: str
 ) -> tuple[EventEntry, ...]:
-    if list(found) != [(k, event) for k, step in enumerate(steps) for event in range(step.events)]:
+    together = sum(step.events for step in steps) == len(found)  # only then so many are counted out
+    if not together or list(found) != [(k, e) for k, step in enumerate(steps) for e in range(step.events)]:
         raise BadFile(f"{source} is damaged: its steps and what they moved do not belong together")
     return tuple(found.values())
 
 
 def _rules(db: sqlite3.Connection, about: About, source: str) -> tuple[RuleEntry, ...]:
     heads = sorted(_read(db, "rules", RuleHead, source).items(), key=lambda row: row[1].place)
-    if [head.place for _, head in heads] != list(range(about.rules)):
+    if len(heads) != about.rules or [head.place for _, head in heads] != list(range(about.rules)):
         raise BadFile(f"{source} is damaged: of {about.rules} rules it has {len(heads)}, or in no order")
     found = _read(db, "instances", Held, source).items()
     held = {

@@ -15,6 +15,7 @@ from gaitwright.knowledge.json_form import (
     MAX_BYTES,
     ActionEntry,
     BookEntry,
+    Count,
     EventEntry,
     Facts,
     InstanceEntry,
@@ -47,7 +48,7 @@ class BookLine(Strict, frozen=True):
     robot: Label
     made_by: Label
     seed: Whole
-    lessons: Place
+    lessons: Count
 
 
 class RuleLine(Strict, frozen=True):

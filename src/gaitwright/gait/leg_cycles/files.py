@@ -17,7 +17,8 @@ from typing import Annotated
 import msgspec
 from msgspec import Meta
 
-from gaitwright.errors import BadFile, unknown
+from gaitwright.errors import BadFile, short, unknown
+from gaitwright.files import content_of, is_there, json_of
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle, Point, fault_of
 
 MAX_BYTES = 100_000
@@ -51,7 +52,7 @@ def load_cycle(name_or_path: str | Path) -> LegCycle:
     asked = str(name_or_path)
     if asked in cycle_names():
         return built_in(asked)
-    if isinstance(name_or_path, Path) or Path(asked).suffix == ".json" or Path(asked).is_file():
+    if isinstance(name_or_path, Path) or Path(asked).suffix == ".json" or is_there(asked):
         return read(asked)
     raise unknown("leg cycle", asked, (*cycle_names(), "or the path of a JSON file"))
 
@@ -70,30 +71,16 @@ def built_in(name: str) -> LegCycle:
 # --- reading ---------------------------------------------------------------------------------------
 def read(path: str) -> LegCycle:
     """The cycle in a JSON file. Raises `BadFile` with one sentence."""
-    content, name = content_of(path), Path(path).name
+    name, asked = Path(path).name, f"leg cycle {short(path)}"
     try:
-        entry = msgspec.json.decode(content, type=CycleEntry)
+        entry = json_of(content_of(path, "leg cycle", MAX_BYTES), CycleEntry, asked)
     except msgspec.ValidationError as error:
-        raise BadFile(f"leg cycle {path}: {sentence(str(error), name)}") from None
-    except (msgspec.DecodeError, RecursionError) as error:
-        raise BadFile(f"leg cycle {path} is not JSON: {error}") from None
+        raise BadFile(f"{asked}: {sentence(str(error), name)}") from None
     points, hind = tuple(entry.points), None if entry.hind is None else tuple(entry.hind)
     fault = fault_of(points, name, hind)
     if fault:
-        raise BadFile(f"leg cycle {path}: {fault}")
+        raise BadFile(f"{asked}: {fault}")
     return LegCycle(Path(path).stem, points, hind, entry.about)
-
-
-def content_of(path: str) -> bytes:
-    """What the file holds, at most `MAX_BYTES`."""
-    try:
-        with open(path, "rb") as file:
-            content = file.read(MAX_BYTES + 1)
-    except (OSError, ValueError) as error:
-        raise BadFile(f"leg cycle {path} cannot be read: {getattr(error, 'strerror', error)}") from None
-    if len(content) > MAX_BYTES:
-        raise BadFile(f"leg cycle {path} is larger than the limit of {MAX_BYTES / 1e3:g} kB")
-    return content
 
 
 def sentence(message: str, name: str) -> str:

@@ -14,7 +14,7 @@ from xml.etree.ElementTree import Element
 import mujoco
 import numpy as np
 
-from gaitwright.errors import WrongUse
+from gaitwright.errors import BadFile, WrongUse
 from gaitwright.ground.scene import Scene
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, quaternion_of
@@ -46,7 +46,7 @@ def build_world(robots: Sequence[Placed], scene: Scene, timestep: float = 0.002)
     """The physics of robots in a scene; `timestep` in seconds.
 
     Robots collide with the ground, the boxes and each other, not with themselves. MuJoCo's reset upon a bad
-    state is off: numbers that blow up stay visible. Raises `ValueError` where MuJoCo refuses a robot.
+    state is off: numbers that blow up stay visible. Raises `BadFile` where MuJoCo refuses it.
     """
     if len(robots) > MOST_ROBOTS:
         raise WrongUse(f"{len(robots)} robots in one world; there can be {MOST_ROBOTS}")
@@ -57,7 +57,11 @@ def build_world(robots: Sequence[Placed], scene: Scene, timestep: float = 0.002)
     ground.add(root, world, scene)
     for number, placed in enumerate(robots):
         _add_robot(Into(world, actuator, sensor), placed, scene, number, len(robots))
-    model = mujoco.MjModel.from_xml_string(ElementTree.tostring(root, encoding="unicode"))
+    try:
+        model = mujoco.MjModel.from_xml_string(ElementTree.tostring(root, encoding="unicode"))
+    except ValueError as error:
+        reason = " ".join(str(error).split())
+        raise BadFile(f"MuJoCo makes no world of {root.get('model')}: {reason}") from None
     ground.fill(model, scene)
     return model
 

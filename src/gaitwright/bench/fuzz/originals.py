@@ -1,0 +1,82 @@
+"""What is sound: small files of each kind, made when they are first asked for."""
+
+import json
+import tempfile
+from functools import cache
+from pathlib import Path
+
+from gaitwright.bench.evidence.learner import begun, lesson_of, taught
+from gaitwright.description.load import load_robot
+from gaitwright.gait.leg_cycles.files import BUILT_IN
+from gaitwright.ground.scene import load_scene
+from gaitwright.knowledge.json_form import dumps
+from gaitwright.locomotion import Brain
+from gaitwright.model.catalogue import robot_file, robot_names
+from gaitwright.model.urdf import write_urdf
+from gaitwright.plant.kinematic import KinematicPlant
+from gaitwright.session import walk
+from gaitwright.signals import Mission
+from gaitwright.skillbook.book import Skillbook, export_text
+from gaitwright.skills.chooser import fixed_skill
+
+LESSONS = 12
+BOXES = [
+    {"x": 1.0 + 0.4 * k, "y": 0.3 * k - 0.6, "yaw": 0.2 * k, "lx": 0.3, "ly": 0.2, "height": 0.05 * k + 0.02}
+    for k in range(6)
+]  # fmt: skip
+SCENES = (
+    {},
+    {"name": "yard", "surface": {"type": "slope", "pitch": 0.1, "cross": -0.05}, "friction": 0.6},
+    {"boxes": BOXES, "bounds": [-3, -3, 6, 3], "start": [0, 0, 0.2]},
+    {"surface": {"type": "heights", "x_min": -4, "y_min": -4, "spacing": 2.0, "heights": [[0, 0.1] * 4] * 5}},
+)
+
+
+def scenes() -> tuple[bytes, ...]:
+    return tuple(json.dumps(scene).encode() for scene in SCENES)
+
+
+def cycles() -> tuple[bytes, ...]:
+    return tuple(path.read_bytes() for path in sorted(BUILT_IN.glob("*.json")))
+
+
+def mjcfs() -> tuple[bytes, ...]:
+    return tuple(robot_file(name).read_bytes() for name in robot_names())
+
+
+@cache
+def urdfs() -> tuple[bytes, ...]:
+    return tuple(write_urdf(load_robot(name)).encode() for name in ("go2", "hexapod"))
+
+
+@cache
+def book() -> Skillbook:
+    """A book of some lessons."""
+    done = begun()
+    for place in range(LESSONS):
+        done = taught(done, lesson_of(1, place))
+    return done
+
+
+def texts() -> tuple[bytes, ...]:
+    return (export_text(book()).encode(),)
+
+
+def rulebooks() -> tuple[bytes, ...]:
+    return (dumps(book().rulebook),)
+
+
+@cache
+def skillbooks() -> tuple[bytes, ...]:
+    with tempfile.TemporaryDirectory() as folder:
+        return (book().save(Path(folder) / "sound.skills").read_bytes(),)
+
+
+@cache
+def recordings() -> tuple[bytes, ...]:
+    """A walk of some ticks, without mechanics: nothing has to be compiled for it."""
+    robot, scene = load_robot("go2"), load_scene("flat")
+    brain = Brain.of(robot, scene, fixed_skill(robot, "walk", 0.2, 0.0, 0.0, "kinematic"))
+    done = walk(brain, KinematicPlant(robot, scene), Mission((), driver="kinematic"), 0.06, scene="flat")
+    with tempfile.TemporaryDirectory() as folder:
+        return (done.save(Path(folder) / "sound.npz").read_bytes(),)

@@ -1,0 +1,117 @@
+"""What the file of a recording holds, held against what a recording can be: nothing is believed before."""
+
+from collections.abc import Iterator
+from dataclasses import fields
+from typing import Annotated, Any
+
+import msgspec
+import numpy as np
+from msgspec import Meta
+
+from gaitwright.errors import printable
+from gaitwright.model.robot import Robot, robot_of
+from gaitwright.record.channels import SITUATION, always, columns_of
+
+MOST_LEGS = 16
+LARGEST = 1e6
+"""No number of a robot is as large as this, in SI units."""
+BLOWN_UP = 1e12
+"""A number of a tick beyond this is none any more: the simulation blew up."""
+LONGEST_PERIOD = 1000.0
+"""Of a gait [s]."""
+MOST_POINTS = 100_000
+"""Of a route."""
+
+Name = Annotated[str, Meta(min_length=1, max_length=200)]
+Names = Annotated[tuple[Name, ...], Meta(max_length=1000)]
+Lists = Annotated[list[Any], Meta(max_length=MOST_LEGS)]
+
+
+class Header(msgspec.Struct, frozen=True):
+    """The JSON beside the channels."""
+
+    scene: Annotated[str, Meta(max_length=1000)]
+    seed: int
+    dt: Annotated[float, Meta(ge=1e-6, le=10.0)]
+    skills: Names
+    drivers: Names
+    arrived: bool
+    fell: bool
+    stopped_because: Annotated[str, Meta(max_length=10_000)]
+    robot: dict[str, str | float | Lists]
+
+
+def header_of(content: bytes) -> tuple[Robot, dict[str, Any]]:
+    """The robot of a header, and its other fields. Raises `ValueError` or `TypeError` where it is none."""
+    entry = msgspec.json.decode(content, type=Header)
+    own = {name: getattr(entry, name) for name in Header.__struct_fields__ if name != "robot"}
+    shown = {
+        "scene": printable(entry.scene),
+        "stopped_because": printable(entry.stopped_because),
+        "skills": tuple(map(printable, entry.skills)),
+        "drivers": tuple(map(printable, entry.drivers)),
+    }
+    robot = robot_of(dict(entry.robot))
+    fault = next(faults_of(robot), None)
+    if fault:
+        raise ValueError(f"its robot has {fault}")
+    return robot, own | shown
+
+
+def faults_of(robot: Robot) -> Iterator[str]:
+    """What keeps plain numbers from being a robot."""
+    if not 1 <= robot.n <= MOST_LEGS or not all(isinstance(leg, str) for leg in robot.legs):
+        yield f"no 1 to {MOST_LEGS} legs"
+    if not isinstance(robot.name, str) or isinstance(robot.base_mass, str):
+        yield "a name that is none, or a mass that is none"
+    for field in fields(Robot):
+        value, dims = getattr(robot, field.name), getattr(field.type, "dim_str", None)
+        if dims is None:
+            continue
+        shape = tuple(robot.n if size == "legs" else int(size) for size in dims.split())
+        numbers = isinstance(value, np.ndarray) and value.dtype.kind in "if" and value.shape == shape
+        if not numbers or not (np.abs(value) < LARGEST).all():
+            yield f"no {' × '.join(map(str, shape))} numbers as its {field.name}"
+    if not (0.0 < robot.base_mass < LARGEST and (robot.mass >= 0.0).all() and robot.height > 0.0):
+        yield "masses or a height that are not positive"
+
+
+def sound_rows(rows: np.ndarray, legs: int) -> np.ndarray:
+    """Which rows `(rows, width)` hold numbers only, those of the situation apart."""
+    with np.errstate(invalid="ignore"):
+        return np.all(np.abs(rows[:, : always(legs)]) < BLOWN_UP, axis=1)
+
+
+def check_rows(rows: np.ndarray, legs: int, skills: int, drivers: int) -> None:
+    """Raises `ValueError` for a row that names a skill or driver that there is not, or counts none."""
+    places = columns_of(legs)
+
+    def column(name: str) -> np.ndarray:
+        return rows[:, places[name]][:, 0]
+
+    for name, known in (("skill", skills), ("driver", drivers)):
+        numbers = column(name)
+        wrong = numbers[~((numbers >= 0) & (numbers < known) & (numbers == np.floor(numbers)))]
+        if len(wrong):
+            raise ValueError(f"it has {known} names of {name}s, and a tick with number {wrong[0]:g}")
+    period = column("period")
+    if not ((period > 0.0) & (period <= LONGEST_PERIOD)).all():
+        raise ValueError(f"the period of a gait is not between 0 and {LONGEST_PERIOD:g} s")
+    check_situation(rows, legs)
+
+
+def check_situation(rows: np.ndarray, legs: int) -> None:
+    """Raises `ValueError` for a route or a look ahead that is none. NaN is what was not known, and only what
+    stands in the way may be endlessly far."""
+    places = columns_of(legs)
+    for name in SITUATION:
+        values = rows[:, places[name]]
+        endless = (values == np.inf) & (name == "scan_obstacle")
+        if not (np.isnan(values) | (np.abs(values) < BLOWN_UP) | endless).all():
+            raise ValueError(f"channel {name} holds what is no number")
+    points, left, following = (rows[:, places[f"route_{name}"]] for name in ("points", "remaining", "next"))
+    known = ~np.isnan(points[:, 0])
+    if not ((points[known] >= 0) & (points[known] <= MOST_POINTS)).all():
+        raise ValueError(f"a route has not 0 to {MOST_POINTS} points")
+    if np.isnan(left[known]).any() or np.isnan(following[known & (points[:, 0] > 0)]).any():
+        raise ValueError("a route has points, and none of them is told")
