@@ -21,18 +21,7 @@ class JointTree(NamedTuple):
     @staticmethod
     def of(m: mujoco.MjModel, d: mujoco.MjData, base: int) -> "JointTree":
         """The limbs of a body."""
-        last, children = {base: BASE}, {BASE: []}
-        for body in range(base + 1, m.nbody):
-            parent = last.get(int(m.body_parentid[body]))
-            if parent is None:
-                continue
-            first = int(m.body_jntadr[body])
-            for joint in range(first, first + int(m.body_jntnum[body])):
-                children[parent].append(joint)
-                children[joint] = []
-                parent = joint
-            last[body] = parent
-        return JointTree(m, d, children)
+        return JointTree(m, d, joints_after(m, base))
 
     @property
     def limbs(self) -> list[int]:
@@ -97,3 +86,20 @@ def pose_as_modelled(m: mujoco.MjModel) -> mujoco.MjData:
     mujoco.mj_kinematics(m, d)
     mujoco.mj_comPos(m, d)
     return d
+
+
+def joints_after(m: mujoco.MjModel, base: int) -> dict[int, list[int]]:
+    """The joints that hang on each joint of a body's limbs, and on the body itself (`BASE`)."""
+    last_joint = {base: BASE}
+    children: dict[int, list[int]] = {BASE: []}
+    for body in range(base + 1, m.nbody):
+        parent = last_joint.get(int(m.body_parentid[body]))
+        if parent is None:
+            continue
+        first = int(m.body_jntadr[body])
+        for joint in range(first, first + int(m.body_jntnum[body])):
+            children[parent].append(joint)
+            children[joint] = []
+            parent = joint
+        last_joint[body] = parent
+    return children

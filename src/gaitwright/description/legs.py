@@ -9,6 +9,7 @@ import numpy as np
 from gaitwright.description.arms import sorted_out
 from gaitwright.description.feet import find_foot
 from gaitwright.description.heading import LEG_NAMES, Heading, Limb
+from gaitwright.description.joint_tree import BASE, joints_after
 from gaitwright.description.leg_shape import Frame, shape_of
 from gaitwright.description.validate import ABSURD
 from gaitwright.errors import BadFile
@@ -46,7 +47,7 @@ class Legs(NamedTuple):
     """What was taken for granted in finding them, a sentence each."""
 
 
-BASE, ELSEWHERE = -1, -2
+ELSEWHERE = -2
 
 
 def find_legs(m: mujoco.MjModel) -> Legs:
@@ -125,18 +126,7 @@ def floating_bodies(m: mujoco.MjModel) -> list[int]:
 
 def limbs(m: mujoco.MjModel, base: int) -> list[Chain]:
     """Limbs of the floating body: maximal trees of joints, each listed from the base outwards."""
-    last_joint = {base: BASE}
-    children: dict[int, list[int]] = {BASE: []}
-    for body in range(base + 1, m.nbody):
-        parent = last_joint.get(int(m.body_parentid[body]))
-        if parent is None:
-            continue
-        first = int(m.body_jntadr[body])
-        for joint in range(first, first + int(m.body_jntnum[body])):
-            children[parent].append(joint)
-            children[joint] = []
-            parent = joint
-        last_joint[body] = parent
+    children = joints_after(m, base)
     return [chain_from(joint, children) for joint in children[BASE]]
 
 
