@@ -141,7 +141,7 @@ def test_a_remark_is_one_line_in_a_pipe_and_breaks_between_words_on_a_terminal()
 def test_a_name_in_a_sentence_has_at_most_200_letters(capsys: pytest.CaptureFixture[str]):
     name = "a" * 150 + "b" * 150
     remark(f"{name}: taken as it is")
-    assert capsys.readouterr().err == f"{'a' * 100}…{'b' * 98}: taken as it is\n"
+    assert capsys.readouterr().err == f"{'a' * 139}…{'b' * 59}: taken as it is\n"
 
 
 def test_a_report_is_in_a_persons_words(capsys: pytest.CaptureFixture[str]):

@@ -477,7 +477,8 @@ def test_the_closure_sees_what_the_controller_did_not_want() -> None:
         hold(plant, "stand", 1.0, watch=watch)
         sizes.append(np.median(closure.differences()[300:]))
     assert sizes[0] < 0.1
-    assert sizes[1] == pytest.approx(30.0 / robot.total_mass, rel=0.2)
+    share = sizes[1] / (30.0 / robot.total_mass)
+    assert 0.5 < share < 1.1, "stiff joints take a part of the shove that nobody foresaw, not most of it"
 
 
 # --- on the command line --------------------------------------------------------------------------
