@@ -1,4 +1,4 @@
-"""Joints are pulled to where their feet should be, no harder than far off, and friction is made up for."""
+"""Joints are pulled to where their feet should be, and far off no harder than for the most."""
 
 from dataclasses import replace
 
@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from test_numerical import anything, hold, moving, standing
 
-from gaitwright.control.impedance import CREEP, MOST, STANCE, SWING, impedance, joint_friction, steering
+from gaitwright.control.impedance import MOST, STANCE, SWING, steering
 from gaitwright.control.moments import moment_of, row
 from gaitwright.control.numerical import NumericalController
 from gaitwright.dynamics.checks import mass_matrix
@@ -41,7 +41,7 @@ def at_its_target(robot: Robot, s: Sensed, stance: np.ndarray) -> MotionTarget:
 
 
 def torques_of(robot: Robot, s: Sensed, target: MotionTarget) -> np.ndarray:
-    return impedance(robot.packed, moment_of(row(s, target)))
+    return steering(robot.packed, moment_of(row(s, target)))
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -104,16 +104,6 @@ def test_far_off_it_pulls_no_harder_than_for_the_most(seed: int) -> None:
     inertia = np.diag(mass_matrix(robot, s.q))[6:].reshape(-1, 3)
     most = SWING[0] * robot.natural_frequency**2 * inertia * MOST
     assert (np.abs(torques_of(robot, s, target)) <= most * (1.0 + 1e-9)).all()
-
-
-def test_friction_is_made_up_for() -> None:
-    robot = robot_called("dog")
-    robot = replace(robot, damping=np.full((4, 3), 0.5), friction=np.full((4, 3), 0.2))
-    s = replace(standing(robot), qd=np.tile([1.0, -1.0, 0.5 * CREEP], (4, 1)))
-    moment = moment_of(row(s, hold(robot, s)))
-    more = steering(robot.packed, moment) - impedance(robot.packed, moment)
-    np.testing.assert_allclose(more, np.tile([0.7, -0.7, 0.25 * CREEP + 0.1], (4, 1)))
-    assert joint_friction(leg_at(robot.packed, 0), np.zeros(3)) == (0.0, 0.0, 0.0)
 
 
 def test_torques_stay_within_the_limits_whatever_is_pulled() -> None:

@@ -1,4 +1,4 @@
-"""Joint torques beside the inverse dynamics: what holds the legs on their way, and what friction takes.
+"""Joint torques beside the inverse dynamics: what holds the legs on their way.
 
 A leg in the air is stiff, by the inertia at each of its joints, so that its foot is where the capture step
 wants it; a leg that is down is soft, so that it does not hold the body up against the forces that are to
@@ -20,38 +20,11 @@ STANCE = (0.1, 0.03)
 """The same of a leg that is down, times m g h and m g h / w0."""
 MOST = 0.8
 """An angle counts as off by no more than this [rad]."""
-CREEP = 0.5
-"""A joint slower than this is held by part of its dry friction only [rad/s]."""
 
 
 @kernel
 def steering(packed, moment):
-    """Torques `(legs, 3)` of the joints' impedance, and what makes up for their friction [N·m]."""
-    out = impedance(packed, moment)
-    for k in range(out.shape[0]):
-        resisted = joint_friction(leg_at(packed, k), moment.qd[k])
-        for j in range(3):
-            out[k, j] += resisted[j]
-    return out
-
-
-@kernel
-def joint_friction(leg, rates):
-    """What the joints of a leg resist at their rates [N·m].
-
-    Dry friction is full from `CREEP` on and grows with the rate below it: a joint at rest does not chatter.
-    """
-    d, f = leg.damping, leg.friction
-    return (
-        d[0] * rates[0] + f[0] * min(max(rates[0] / CREEP, -1.0), 1.0),
-        d[1] * rates[1] + f[1] * min(max(rates[1] / CREEP, -1.0), 1.0),
-        d[2] * rates[2] + f[2] * min(max(rates[2] / CREEP, -1.0), 1.0),
-    )
-
-
-@kernel
-def impedance(packed, moment):
-    """Torques `(legs, 3)` that pull the joints of a robot to where its feet should be [N·m].
+    """Torques `(legs, 3)` that pull the joints to where the feet should be [N·m].
 
     In the air: to the foot's reference, from the base as it is. On the ground: from the foot where it is, to
     the base as it should be.

@@ -84,7 +84,7 @@ class Robot:
     armature: Float[np.ndarray, "legs 3"]
     """Rotor inertia seen at the joint [kg·m²]."""
     damping: Float[np.ndarray, "legs 3"]
-    """Viscous joint friction [N·m·s/rad]; the plant has it, and the numerical controller makes up for it."""
+    """Viscous joint friction [N·m·s/rad]; the plant has it, the controllers do not feed it forward."""
     friction: Float[np.ndarray, "legs 3"]
     """Dry joint friction [N·m]; as `damping`."""
     q_min: Float[np.ndarray, "legs 3"]
