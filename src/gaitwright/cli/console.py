@@ -9,7 +9,7 @@ from time import perf_counter
 from rich.progress import BarColumn, Progress, TextColumn
 from rich.text import Text
 
-from gaitwright.cli.sentences import tell
+from gaitwright.cli.sentences import fitted
 from gaitwright.errors import told
 from gaitwright.locomotion import Lap
 from gaitwright.screen import Column, Row, paragraph, screen, show, table, width_of
@@ -26,7 +26,7 @@ NAMES = 19
 
 def remark(text: str) -> None:
     """A sentence on the standard error."""
-    tell(text)
+    print(fitted(told(text)), file=sys.stderr, flush=True)
 
 
 def show_table(

@@ -1,4 +1,4 @@
-"""Sentences for the standard error: names that are too long are cut, and no terminal breaks the others.
+"""Sentences for the standard error: no terminal breaks them within a word.
 
 Imports nothing heavy: help and errors are told before anything is loaded.
 """
@@ -6,13 +6,6 @@ Imports nothing heavy: help and errors are told before anything is loaded.
 import sys
 from shutil import get_terminal_size
 from textwrap import wrap
-
-from gaitwright.errors import told
-
-
-def tell(text: str) -> None:
-    """A sentence on the standard error."""
-    print(fitted(told(text)), file=sys.stderr, flush=True)
 
 
 def fitted(sentence: str) -> str:

@@ -6,6 +6,7 @@ import mujoco
 import numpy as np
 from jaxtyping import Float
 
+from gaitwright.description.aside import listed
 from gaitwright.description.shapes import weighs
 from gaitwright.errors import BadFile
 
@@ -17,8 +18,6 @@ WATER = 1000.0
 """Density of the ball whose inertia a link gets that has none [kg/m³]."""
 ROUNDING = 1e-12
 """A + B may be less than C by this share."""
-MOST_NAMES = 6
-"""A sentence names so many links."""
 
 POINT = "the inertia of {links} is none that a body has; being light, taken as a point of what carries it"
 BALL = "no inertia is given for {links}: taken as that of a ball of water"
@@ -42,7 +41,7 @@ def mend_inertias(spec: mujoco.MjSpec) -> tuple[str, ...]:
         change = mended(body, NEGLIGIBLE * total, bool(spec.compiler.balanceinertia))
         told.setdefault(change, []).append(body.name)
     told.pop("", None)
-    return tuple(change.format(links=named(names)) for change, names in told.items())
+    return tuple(change.format(links=listed(list(map(repr, names)))) for change, names in told.items())
 
 
 def give_masses(spec: mujoco.MjSpec) -> list:
@@ -63,7 +62,7 @@ def take_masses(spec: mujoco.MjSpec, given: list) -> tuple[str, ...]:
     for body in given:
         if body not in kept:
             body.mass, body.inertia = 0.0, np.zeros(3)
-    return (WEIGHTLESS.format(links=named([body.name for body in kept]), mass=mass),) if kept else ()
+    return (WEIGHTLESS.format(links=listed([repr(body.name) for body in kept]), mass=mass),) if kept else ()
 
 
 def fixed_to(body, given: list) -> list:
@@ -135,9 +134,3 @@ def has_mass(spec: mujoco.MjSpec, body) -> bool:
     if body.explicitinertial:
         return body.mass > 0.0
     return any(weighs(spec, geom) for geom in body.geoms)
-
-
-def named(names: list[str]) -> str:
-    """Links by name, the first of many."""
-    more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
-    return ", ".join(map(repr, names[:MOST_NAMES])) + more

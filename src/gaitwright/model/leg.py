@@ -31,17 +31,13 @@ class Leg(NamedTuple):
     com: tuple
     inertia: tuple
     armature: tuple
-    damping: tuple
-    friction: tuple
     foot_radius: float
 
 
 # --- reading -------------------------------------------------------------------------------------
-hip, frame, offset, sign, mass, com, inertia = (
-    LAYOUT.start(name) for name in ("hip", "leg_frame", "offset", "sign", "mass", "com", "inertia")
-)
-armature, damping, friction, foot_radius = (
-    LAYOUT.start(name) for name in ("armature", "damping", "friction", "foot_radius")
+hip, frame, offset, sign, mass, com, inertia, armature, foot_radius = (
+    LAYOUT.start(name)
+    for name in ("hip", "leg_frame", "offset", "sign", "mass", "com", "inertia", "armature", "foot_radius")
 )
 base_mass, base_com, base_inertia = (LAYOUT.start(name) for name in ("base_mass", "base_com", "base_inertia"))
 
@@ -59,8 +55,6 @@ def leg_at(packed, k):
         rows_at(packed, com(packed) + 9 * k),
         (rows_at(packed, tensors), rows_at(packed, tensors + 9), rows_at(packed, tensors + 18)),
         vec_at(packed, armature(packed) + 3 * k),
-        vec_at(packed, damping(packed) + 3 * k),
-        vec_at(packed, friction(packed) + 3 * k),
         packed[foot_radius(packed) + k],
     )
 
@@ -78,8 +72,6 @@ def leg_of(model, k):
         rows(model.com[k]),
         (rows(tensors[0]), rows(tensors[1]), rows(tensors[2])),
         vec(model.armature[k]),
-        vec(model.damping[k]),
-        vec(model.friction[k]),
         model.foot_radius[k],
     )
 

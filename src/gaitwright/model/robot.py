@@ -33,8 +33,6 @@ class RobotArrays(NamedTuple):
     com: Float[np.ndarray, "legs 3 3"]
     inertia: Float[np.ndarray, "legs 3 3 3"]
     armature: Float[np.ndarray, "legs 3"]
-    damping: Float[np.ndarray, "legs 3"]
-    friction: Float[np.ndarray, "legs 3"]
     branch: Float[np.ndarray, "legs 2"]
     tau_max: Float[np.ndarray, "legs 3"]
     foot_radius: Float[np.ndarray, "legs"]

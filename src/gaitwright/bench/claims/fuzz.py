@@ -1,6 +1,6 @@
 """Claim: what a file or a command line holds is taken, or refused in a sentence: no traceback, no hang."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from gaitwright.bench.context import Context
 from gaitwright.bench.fuzz.hunt import LONGEST, MOST_MB, Found, hunt
@@ -35,11 +35,6 @@ def measure(context: Context) -> Iterator[Figure]:
     yield figure("tracebacks", len(total.tracebacks), total)
     yield figure(f"hangs over {LONGEST:g} s", len(total.hangs), total)
     yield figure(f"more than {MOST_MB / 1e3:g} GB", len(total.greedy), total)
-
-
-def telling(context: Context, kind: str) -> Callable[[int], None]:
-    """Says now and then how many cases of a kind are done."""
-    return lambda done: context.voice.say(f"fuzz: {done} cases of {kind}", now=False)
 
 
 def figure(what: str, faults: int, found: Found) -> Figure:
