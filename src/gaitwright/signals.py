@@ -18,6 +18,9 @@ from jaxtyping import Bool, Float
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.packing import Packed, packed
 
+GRIP = 0.8
+"""Coefficient of friction of ground of which nothing is known [-]."""
+
 
 @kernel
 def are_finite(row):
@@ -116,6 +119,8 @@ class GroundMap:
     """For feet."""
     step: float
     """A sudden rise by more than this is an obstacle [m]."""
+    friction: float = GRIP
+    """Coefficient of friction that feet count on until they slip [-]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -204,6 +209,8 @@ class MotionTarget(Packed):
     """Legs that carry load now."""
     load_scale: Float[np.ndarray, "legs"]
     """How much of the normal-force bound each leg may use, 0 … 1: it ramps at both ends of stance."""
+    friction: Float[np.ndarray, "legs"]
+    """Coefficient of friction that each foot may count on [-]."""
     normal_w: Float[np.ndarray, "3"]
     """Unit normal of the ground under the feet."""
     position_w: Float[np.ndarray, "3"]

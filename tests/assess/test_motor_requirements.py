@@ -61,6 +61,7 @@ def test_standing_feet_carry_the_weight_and_nothing_turns():
 @given(factor=st.floats(0.3, 3.0))
 @settings(max_examples=8)
 def test_a_heavier_robot_needs_as_much_more(factor: float):
+    """Its joints' friction too, which the motors make up for, grows with it here."""
     scaled = ("base_mass", "base_inertia", "mass", "inertia", "armature", "damping", "friction")
     heavier = replace(GO2, **{name: getattr(GO2, name) * factor for name in scaled})
     for name, speed in (("trot", 0.4), ("run", 1.5)):

@@ -29,7 +29,7 @@ from gaitwright.model.kinematics import angles, feet
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, rotation, rotation_vector
 from gaitwright.plant.mujoco.simulation import MujocoPlant
-from gaitwright.signals import MotionTarget, Sensed
+from gaitwright.signals import GRIP, MotionTarget, Sensed
 from oracles import mujoco_foot_accelerations, mujoco_forward, robot_called
 
 NAMES = pytest.mark.parametrize("name", ["go2", "thesis", "hexapod", "dog"])
@@ -69,6 +69,7 @@ def hold(robot: Robot, sensed: Sensed, stance: np.ndarray | None = None) -> Moti
         phase=0.0,
         stance=down,
         load_scale=down.astype(float),
+        friction=np.full(robot.n, GRIP),
         normal_w=UP,
         position_w=sensed.position_w,
         velocity_w=still,

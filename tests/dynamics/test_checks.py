@@ -19,7 +19,7 @@ from gaitwright.dynamics.newton_euler import joint_accelerations
 from gaitwright.model.kinematics import angles
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, rotation
-from gaitwright.signals import MotionTarget, Sensed
+from gaitwright.signals import GRIP, MotionTarget, Sensed
 from oracles import bare_world, put, robot_called
 
 SEEDS = st.integers(0, 2**32 - 1)
@@ -109,7 +109,7 @@ def standing(name: str, rng: np.random.Generator):
     )  # fmt: skip
     down = np.ones(robot.n, dtype=bool)
     target = MotionTarget(
-        0.0, down, down.astype(float), UP, s.position_w, still, still, np.eye(3), still, still,
+        0.0, down, down.astype(float), np.full(robot.n, GRIP), UP, s.position_w, still, still, np.eye(3), still, still,
         joints, joints, joints, q, still,
     )  # fmt: skip
     return robot, s, target

@@ -14,9 +14,12 @@ from gaitwright.control.inverse_dynamics import load_of
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import cross, dot, scale, sub, vec
 from gaitwright.numerics.quadratic_program import minimise
+from gaitwright.signals import GRIP
 
-FRICTION = 0.5
-"""Half-width of the friction pyramid, as a share of the normal force."""
+PYRAMID = 0.625
+"""Half-width of the friction pyramid, as a share of the cone's: its edges reach 0.884 of that."""
+FRICTION = PYRAMID * GRIP
+"""Half-width of the pyramid on ground of which nothing is known."""
 MOST_NORMAL = 1.5
 """Largest normal force of one foot, in weights."""
 FORCE_WEIGHTS = (1.0, 1.0, 1.5)
@@ -66,7 +69,7 @@ def balance_rows(wrench, arm, stance, frame, weight, height):
 
 
 @kernel
-def limit_rows(free, push, stance, share, frame, tau_max, weight):
+def limit_rows(free, push, stance, share, friction, frame, tau_max, weight):
     """Bounds on x and on `rows @ x`: `(7m, 3m)` rows, and lower, upper `(10m,)` with x's own first."""
     m = stance.sum()
     rows = np.zeros((7 * m, 3 * m))
@@ -84,7 +87,7 @@ def limit_rows(free, push, stance, share, frame, tau_max, weight):
         for i in range(4):
             r = 4 * k + i
             rows[r, x + i // 2] = 1.0 if i % 2 == 0 else -1.0
-            rows[r, x + 2] = -FRICTION
+            rows[r, x + 2] = -PYRAMID * friction[leg]
             lower[3 * m + r], upper[3 * m + r] = -10.0, 0.0
         for j in range(3):
             r = 4 * m + 3 * k + j
@@ -126,7 +129,7 @@ def to_world(x, stance, frame, weight):
 
 
 @kernel
-def quadratic_program(load_numbers, stance, share, normal, previous, tau_max, weight, height):
+def quadratic_program(load_numbers, stance, share, friction, normal, previous, tau_max, weight, height):
     """The program min ½‖balance‖² + ½ small ‖x‖² + ½ smooth ‖x − x_prev‖² under the limits.
 
     Takes a packed `Load`; returns hessian, gradient, rows, lower and upper bounds as `solve_qp` reads them.
@@ -148,18 +151,18 @@ def quadratic_program(load_numbers, stance, share, normal, previous, tau_max, we
         for r in range(6):
             total += rows[r, i] * wanted[r]
         gradient[i] = -total
-    limits, lower, upper = limit_rows(load.free, load.push, stance, share, frame, tau_max, weight)
+    limits, lower, upper = limit_rows(load.free, load.push, stance, share, friction, frame, tau_max, weight)
     return hessian, gradient, limits, lower, upper
 
 
 @kernel
-def distribute(load_numbers, stance, share, normal, previous, tau_max, weight, height):
+def distribute(load_numbers, stance, share, friction, normal, previous, tau_max, weight, height):
     """Solves the quadratic program: x `(3m,)`, prices `(legs, LIMITS)`, code of `minimise`, and culprit.
 
     The culprit is a torque limit wherever one is part of what excludes a solution.
     """
     hessian, gradient, rows, lower, upper = quadratic_program(
-        load_numbers, stance, share, normal, previous, tau_max, weight, height
+        load_numbers, stance, share, friction, normal, previous, tau_max, weight, height
     )
     x, prices, code, culprit = minimise(hessian, gradient, rows, lower, upper)
     torque_rows = 7 * stance.sum()

@@ -137,7 +137,18 @@ def total_price(t, x):
 
 @kernel
 def distribute_linear(
-    load_numbers, stance, share, normal, previous, tau_max, weight, height, qd, settings_numbers, hints
+    load_numbers,
+    stance,
+    share,
+    friction,
+    normal,
+    previous,
+    tau_max,
+    weight,
+    height,
+    qd,
+    settings_numbers,
+    hints,
 ):
     """How the stance feet share a packed `Load` by the thesis's program: a `Shared`.
 
@@ -152,7 +163,7 @@ def distribute_linear(
             np.zeros(0), np.zeros((legs, 15 if c == 6 else 9)), np.zeros(6), 0.0, SOLVED, -1, basis, 0
         )
     t = linear_program(
-        load_numbers, stance, share, normal, previous, tau_max, weight, height, qd, settings_numbers
+        load_numbers, stance, share, friction, normal, previous, tau_max, weight, height, qd, settings_numbers
     )
     start = hints_now(hints, down, c, legs)
     x, y, final, code, culprit, steps = minimise(t, start)

@@ -30,6 +30,7 @@ class Moment(NamedTuple):
     rotation_d: Float[np.ndarray, "3 3"]
     stance: Bool[np.ndarray, "legs"]
     load_scale: Float[np.ndarray, "legs"]
+    friction: Float[np.ndarray, "legs"]
     q: Float[np.ndarray, "legs 3"]
     qd: Float[np.ndarray, "legs 3"]
     feet_p: Float[np.ndarray, "legs 3"]
@@ -51,7 +52,7 @@ def moment_between(seen, asked):
     return Moment(
         s.position_w, s.orientation_wb, s.velocity_w, s.angular_velocity_b, t.normal_w, t.position_w,
         t.velocity_w, t.acceleration_w, t.angular_velocity_w, t.angular_acceleration_w, t.rotation_wb,
-        t.stance, t.load_scale, s.q, s.qd, t.feet_w, t.feet_velocity_w, t.feet_acceleration_w,
+        t.stance, t.load_scale, t.friction, s.q, s.qd, t.feet_w, t.feet_velocity_w, t.feet_acceleration_w,
     )  # fmt: skip
 
 

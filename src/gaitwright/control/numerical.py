@@ -81,7 +81,7 @@ def distributed(packed, load, moment, previous, out):
     steer = steering(packed, moment)
     load_of(load).free[:] += steer
     x, prices, code, culprit = distribute(
-        load, stance, moment.load_scale, normal, previous, tau_max, weight, height
+        load, stance, moment.load_scale, moment.friction, normal, previous, tau_max, weight, height
     )
     result = result_of(out)
     result.multipliers[:], result.basis[:] = prices, -1.0
@@ -99,6 +99,7 @@ def distributed_linear(packed, load, moment, previous, settings, hints, out):
         load,
         stance,
         moment.load_scale,
+        moment.friction,
         normal,
         previous,
         tau_max,

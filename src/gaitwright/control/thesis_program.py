@@ -19,6 +19,7 @@ from gaitwright.control.forces import (
     FRICTION,
     MOMENT_WEIGHTS,
     MOST_NORMAL,
+    PYRAMID,
     balance_rows,
     contact_frame,
     to_contact,
@@ -47,7 +48,7 @@ class LinearSettings(NamedTuple):
     change: float = CHANGE
     """0: none, as in the thesis."""
     friction: float = FRICTION
-    """μ′: half-width of the friction pyramid; μ/√2 lies inside the cone."""
+    """μ′: half-width of the friction pyramid, at most; it is less on ground with less grip."""
     most_normal: float = MOST_NORMAL
     """Largest normal force of one foot [weights]."""
     components: float = 3.0
@@ -154,11 +155,12 @@ def write_torques(t, settings, r, x, c, load, leg, frame, limits, qd, weight, he
 
 
 @kernel
-def write_foot(t, settings, r, x, c, height):
+def write_foot(t, settings, r, x, c, friction, height):
     """Rows of a foot's friction, its share in the peak, its centre of pressure and its twist."""
+    width = min(settings.friction, PYRAMID * friction)
     for i in range(4):
         t[COLUMN + x + i // 2, r + i] = 1.0 if i % 2 == 0 else -1.0
-        t[COLUMN + x + 2, r + i] = -settings.friction
+        t[COLUMN + x + 2, r + i] = -width
         set_price(t, r + i, -np.inf, 0.0, 0.0, 0.0, 0.0)
     t[COLUMN + x + 2, r + 7] = 1.0
     if settings.literal:
@@ -174,7 +176,9 @@ def write_foot(t, settings, r, x, c, height):
 
 
 @kernel
-def linear_program(load_numbers, stance, share, normal, previous, tau_max, weight, height, qd, numbers):
+def linear_program(
+    load_numbers, stance, share, friction, normal, previous, tau_max, weight, height, qd, numbers
+):
     """The program as a table that `simplex.minimise` reads."""
     settings = settings_of(numbers)
     load = load_of(load_numbers)
@@ -192,7 +196,7 @@ def linear_program(load_numbers, stance, share, normal, previous, tau_max, weigh
         if stance[leg]:
             r = n + each * k
             write_unknowns(t, settings, k, c, settings.most_normal * share[leg], before, height)
-            write_foot(t, settings, r, c * k, c, height)
+            write_foot(t, settings, r, c * k, c, friction[leg], height)
             write_torques(
                 t, settings, r + 4, c * k, c, load, leg, frame, tau_max, qd, weight, height
             )  # fmt: skip

@@ -13,6 +13,8 @@ from gaitwright.gait.command import advance_reference, sample, slew
 from gaitwright.gait.contact_plane import advance_ground, plane_height, plane_normal
 from gaitwright.gait.contacts import advance_legs, is_lifting, is_waited_for, shares
 from gaitwright.gait.foot_references import feet_in_base, feet_in_world, feet_reference, shank_leans
+from gaitwright.gait.grip import feel_grip
+from gaitwright.gait.hurry import hurried
 from gaitwright.gait.leg_cycles.files import cycle_of
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle, tabulated_legs
 from gaitwright.gait.reach_assist import reach_assist
@@ -34,7 +36,7 @@ from gaitwright.numerics.geometry import (
     vec,
 )
 from gaitwright.numerics.matrices import write
-from gaitwright.signals import ElevationGrid, Gait, GroundMap, MotionTarget, Sensed, SkillCall
+from gaitwright.signals import GRIP, ElevationGrid, Gait, GroundMap, MotionTarget, Sensed, SkillCall
 
 target_fields = MotionTarget.layout.views(raw=True)
 sensed_fields = Sensed.layout.views()
@@ -72,6 +74,7 @@ def coordinate(
     heights,
     edges,
     rise,
+    friction,
     asked,
     seen,
     dt,
@@ -83,7 +86,8 @@ def coordinate(
     `numbers`: the packed robot; `height`, `stand`: of its base over ground and foot centres; `threshold`:
     load of a foot in contact [N]; `clock`: (period, duty); `cycles`: the leg cycles, a table a leg;
     `leans`: `shank_leans`; `place`, `heights`, `edges`: the `ElevationGrid`; `rise`: the most that
-    its ground may step up or down [m]; `asked`: forward, left, yaw rate; `seen`: the row of a `Sensed`.
+    its ground may step up or down [m]; `friction`: what is known of its grip; `asked`: forward, left, yaw
+    rate; `seen`: the row of a `Sensed`.
     """
     model, ground = unpacked(numbers), ElevationGrid(place, heights, edges)
     (period, duty), state = clock, state_of(memory)
@@ -94,15 +98,15 @@ def coordinate(
     feet_w = feet_in_world(model, rotation_wb, at, q)
     if is_new(state, clock, offsets):
         was = start_gait(state, clock, offsets, cycles, asked, model, rotation_wb, at, feet_w, height)
+    period = hurried(period, v, state.command, state.reference_pose[2], height)
+    clock = (period, duty)
     phase = state.phase[0]
     step = dt / period if duty < 1.0 else 0.0
     missing = is_waited_for(state, phase, step, duty, offsets, period, dt)
     if not (missing and is_lifting(state, phase, step, duty, offsets)):
         phase = (phase + step) % 1.0
-    felt = load > threshold
-    for leg in range(felt.size):
-        if state.mode[leg] == SWING:
-            felt[leg] &= is_on_ground(ground, feet_w[leg], model.foot_radius[leg], height)
+    felt = feet_felt(state, model, ground, feet_w, load > threshold, height)
+    feel_grip(state, felt, feet_w, friction, height, dt)
     advance_legs(state, was, phase, period, duty, offsets, felt, feet_w, dt)
     state.phase[0] = phase
     advance_ground(state.slope, state.contact, at, v, 0.5 * period, dt)
@@ -121,11 +125,21 @@ def coordinate(
     target.phase[0], target.command[:] = phase, state.command
     target.stance[:] = state.mode == STANCE
     target.load_scale[:] = shares(state, phase, period, duty, offsets, missing)
+    target.friction[:] = state.grip
     write(target.normal_w, 0, normal)
     write_body(target, base_p, base_v, base_a, rotation_d, omega, omega_rate)
     target.feet_w[:], target.feet_velocity_w[:], target.feet_acceleration_w[:] = feet_p, feet_v, feet_a
     in_base = feet_in_base(rotation_d, base_p, feet_p)
     target.q[:], _ = all_angles(model.hip, model.leg_frame, model.offset, model.sign, model.branch, in_base)
+
+
+@kernel
+def feet_felt(state, model, ground, feet_w, loaded, height):
+    """Feet that are on the ground: those that are loaded, and in a swing only where there is ground."""
+    for leg in range(loaded.size):
+        if state.mode[leg] == SWING:
+            loaded[leg] &= is_on_ground(ground, feet_w[leg], model.foot_radius[leg], height)
+    return loaded
 
 
 @kernel
@@ -193,7 +207,9 @@ class Coordinator:
     ) -> tuple[MotionTarget, GaitMemory]:
         """What body, feet and joints should do now, and the memory for the next tick."""
         robot = self.robot
-        grid, rise = (BLIND, robot.step_limit) if ground is None else (ground.footholds, ground.step)
+        grid, rise, friction = BLIND, robot.step_limit, GRIP
+        if ground is not None:
+            grid, rise, friction = ground.footholds, ground.step, ground.friction
         gait = self.possible(memory, call, sensed)
         cycle = self.cycle(gait)
         row, out = memory.row.copy(), np.empty(self.width)
@@ -209,6 +225,7 @@ class Coordinator:
             self.leans,
             *grid,
             rise,
+            friction,
             (call.velocity[0], call.velocity[1], call.turn),
             sensed.row,
             self.dt,

@@ -21,7 +21,7 @@ from gaitwright.model.leg_motion import BaseMotion, acceleration_from_base, join
 from gaitwright.model.reach import LIMIT_TOLERANCE, reach
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, quaternion_of
-from gaitwright.signals import Gait, MotionTarget, Sensed
+from gaitwright.signals import GRIP, Gait, MotionTarget, Sensed
 
 UP = np.array([0.0, 0.0, 1.0])
 Array = np.ndarray
@@ -104,6 +104,7 @@ class DesiredCycle:
             phase=float(self.phase[i]),
             stance=self.stance[i].copy(),
             load_scale=self.stance[i].astype(float),
+            friction=np.full(self.robot.n, GRIP),
             normal_w=UP.copy(),
             position_w=self.position_w[i].copy(),
             velocity_w=self.velocity_w[i].copy(),

@@ -37,6 +37,8 @@ class GaitState(NamedTuple):
     """Time since contact was last felt [s]."""
     offset: Float[np.ndarray, "legs"]
     """Relative phases of the gait in use."""
+    grip: Float[np.ndarray, "legs"]
+    """Coefficient of friction that a foot may count on (`grip`); 0: nothing was felt yet."""
     lift: Float[np.ndarray, "legs"]
     """Factor by which this swing is raised to clear the ground."""
     origin: Float[np.ndarray, "legs 3"]
@@ -82,6 +84,7 @@ def standing(feet_w: np.ndarray, position_w: np.ndarray, yaw: float, phase: floa
         age=np.full(n, 10.0),
         unfelt=np.zeros(n),
         offset=np.zeros(n),
+        grip=np.zeros(n),
         lift=np.ones(n),
         origin=feet_w.copy(),
         contact=feet_w.copy(),

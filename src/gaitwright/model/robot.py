@@ -35,6 +35,10 @@ class RobotArrays(NamedTuple):
     armature: Float[np.ndarray, "legs 3"]
     branch: Float[np.ndarray, "legs 2"]
     tau_max: Float[np.ndarray, "legs 3"]
+    damping: Float[np.ndarray, "legs 3"]
+    friction: Float[np.ndarray, "legs 3"]
+    q_min: Float[np.ndarray, "legs 3"]
+    q_max: Float[np.ndarray, "legs 3"]
     foot_radius: Float[np.ndarray, "legs"]
     nominal_feet: Float[np.ndarray, "legs 3"]
     measures: Float[np.ndarray, "3"]
@@ -82,7 +86,7 @@ class Robot:
     armature: Float[np.ndarray, "legs 3"]
     """Rotor inertia seen at the joint [kg·m²]."""
     damping: Float[np.ndarray, "legs 3"]
-    """Viscous joint friction [N·m·s/rad]; the plant has it, the controllers do not feed it forward."""
+    """Viscous joint friction [N·m·s/rad]; the plant has it, and the numerical controller feeds it forward."""
     friction: Float[np.ndarray, "legs 3"]
     """Dry joint friction [N·m]; as `damping`."""
     q_min: Float[np.ndarray, "legs 3"]

@@ -45,4 +45,5 @@ def map_of(scene: Scene, robot: Robot, sees: bool = True) -> GroundMap:
         scene if sees else None,
         elevation_grid(scene, robot) if sees else BLIND,
         step,
+        scene.friction,
     )

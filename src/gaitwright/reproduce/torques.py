@@ -70,8 +70,8 @@ def cycle_torques(
         sensed, target = cycle.sensed(i), cycle.target(i)
         packed = packed_load(robot, target, sensed)
         shared = distribute_linear(
-            packed, target.stance, target.load_scale, target.normal_w, before, robot.tau_max, weight, height,
-            sensed.qd, numbers, hints if warm else nothing,
+            packed, target.stance, target.load_scale, target.friction, target.normal_w, before,
+            robot.tau_max, weight, height, sensed.qd, numbers, hints if warm else nothing,
         )  # fmt: skip
         hints, solved[i], iterations[i] = shared.basis, shared.code == 0, shared.steps
         x = np.zeros((legs, components))

@@ -54,6 +54,6 @@ def loads(trial: Trial, every: int = 1) -> Iterator[Task]:
             target, sensed = lap.target, lap.sensed
             yield Task(
                 load_of(packed_load(robot, target, sensed)), target.stance, target.load_scale,
-                target.normal_w,
+                target.friction, target.normal_w,
                 last.command.forces_w, robot.tau_max, sensed.qd, weight, robot.height,
             )  # fmt: skip

@@ -14,9 +14,9 @@ from jaxtyping import Bool, Float
 
 from gaitwright.control.forces import (
     FORCE_WEIGHTS,
-    FRICTION,
     MOMENT_WEIGHTS,
     MOST_NORMAL,
+    PYRAMID,
     SMALL,
     SMOOTH,
     contact_frame,
@@ -44,6 +44,8 @@ class Task:
     stance: Bool[np.ndarray, "legs"]
     load_scale: Float[np.ndarray, "legs"]
     """How much of the bound of its normal force a foot may use."""
+    friction: Float[np.ndarray, "legs"]
+    """Coefficient of friction of each foot."""
     normal_w: Float[np.ndarray, "3"]
     previous_w: Float[np.ndarray, "legs 3"]
     """Foot forces of the last tick [N]."""
@@ -58,16 +60,16 @@ class Task:
         """Our answer by the linear program, from the last basis where `hints` has one."""
         none = np.full(int(asked.components) * self.stance.size + 1, -1)
         return distribute_linear(
-            self.packed, self.stance, self.load_scale, self.normal_w, self.previous_w, self.tau_max,
-            self.weight,
+            self.packed, self.stance, self.load_scale, self.friction, self.normal_w, self.previous_w,
+            self.tau_max, self.weight,
             self.height, self.qd, np.array(asked), none if hints is None else hints,
         )  # fmt: skip
 
     def quadratic(self) -> tuple[np.ndarray, np.ndarray, int, int]:
         """Our answer by the quadratic program: forces `(legs, 3)` [N], prices, code and culprit."""
         x, prices, code, culprit = distribute(
-            self.packed, self.stance, self.load_scale, self.normal_w, self.previous_w, self.tau_max,
-            self.weight,
+            self.packed, self.stance, self.load_scale, self.friction, self.normal_w, self.previous_w,
+            self.tau_max, self.weight,
             self.height,
         )  # fmt: skip
         return to_world(x, self.stance, contact_frame(self.normal_w), self.weight), prices, code, culprit
@@ -121,7 +123,7 @@ def limits_of(task: Task) -> tuple[np.ndarray, np.ndarray]:
     rows, least = [], []
     for k, leg in enumerate(task.down):
         sides = [(n, 0.0), (-n, -MOST_NORMAL * task.load_scale[leg] * task.weight)]
-        sides += [(FRICTION * n - s * t, 0.0) for t in (t1, t2) for s in (1, -1)]
+        sides += [(PYRAMID * task.friction[leg] * n - s * t, 0.0) for t in (t1, t2) for s in (1, -1)]
         for push, free, most in zip(task.load.push[leg], task.load.free[leg], task.tau_max[leg], strict=True):
             sides += [(s * push, s * free - most) for s in (1, -1)]
         for normal, bound in sides:
@@ -241,6 +243,7 @@ def contact(program: Program, task: Task, asked: LinearSettings, foot: Foot, leg
         program.cost += (1.0 - asked.xi) * normal
     else:
         program.at_most(normal, 0.0, peak)
+    width = min(asked.friction, PYRAMID * task.friction[leg])
     levers = np.array([asked.roll_lever, asked.pitch_lever, asked.twist_lever])
     levers *= (asked.components == 6) / task.height
     for axis, lever in zip(axes, levers, strict=True):
@@ -248,7 +251,7 @@ def contact(program: Program, task: Task, asked: LinearSettings, foot: Foot, leg
         for sign in (1.0, -1.0):
             program.at_most(foot.row(NONE, sign * axis) - lever * normal, 0.0)
             if not np.array_equal(axis, axes[2]):
-                program.at_most(foot.row(sign * axis, NONE) - asked.friction * normal, 0.0)
+                program.at_most(foot.row(sign * axis, NONE) - width * normal, 0.0)
 
 
 def motors(program: Program, task: Task, asked: LinearSettings, foot: Foot, leg: int) -> None:

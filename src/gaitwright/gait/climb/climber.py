@@ -8,7 +8,7 @@ from jaxtyping import Float
 from gaitwright.gait.climb.motion import SHIFT, Motion
 from gaitwright.gait.climb.plan import Ascent, order_of
 from gaitwright.numerics.geometry import between, rotation_vector
-from gaitwright.signals import Gait, GroundMap, MotionTarget, Sensed, SkillCall
+from gaitwright.signals import GRIP, Gait, GroundMap, MotionTarget, Sensed, SkillCall
 
 UP = np.array([0.0, 0.0, 1.0])
 """Normal of every tread."""
@@ -40,6 +40,7 @@ class Climber:
             phase=time / call.gait.period % 1.0,
             stance=stance,
             load_scale=stance.astype(float),
+            friction=np.full(len(stance), GRIP if ground is None else ground.friction),
             normal_w=UP.copy(),
             position_w=made.position_w[1],
             velocity_w=rate(made.position_w),
