@@ -5,6 +5,7 @@ import numpy as np
 from gaitwright.bench.evidence.sharing_oracles import Task
 from gaitwright.control.inverse_dynamics import Load
 from gaitwright.numerics.geometry import GRAVITY
+from gaitwright.signals import GRIP
 
 WEIGHT, HEIGHT = 15.0 * GRAVITY, 0.3
 """[N], [m]"""
@@ -30,6 +31,7 @@ def any_task(seed: int, legs: int = 4, feet: int | None = None, calm: bool = Fal
         ),
         stance,
         np.where(stance, 1.0 if calm else rng.uniform(0.1, 1.0, legs), 0.0),
+        np.full(legs, GRIP) if calm else rng.uniform(0.2, 2.0, legs),
         normal / np.linalg.norm(normal),
         rng.uniform(-0.3, 0.3, (legs, 3)) * WEIGHT * stance[:, None],
         np.full((legs, 3), 40.0 if calm else 20.0),

@@ -8,9 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gaitwright.bench.evidence.sharing_oracles import Task, by_quadprog
-from gaitwright.control.forces import FRICTION, MOST_NORMAL, contact_frame, torques, unmet
+from gaitwright.control.forces import MOST_NORMAL, PYRAMID, contact_frame, torques, unmet
 from gaitwright.control.inverse_dynamics import Load, load_of
 from gaitwright.numerics.status import INFEASIBLE, SOLVED
+from gaitwright.signals import GRIP
 from tasks import HEIGHT, WEIGHT, any_task
 
 seeds = st.integers(0, 2**32 - 1)
@@ -60,7 +61,8 @@ def test_every_limit_is_kept(seed: int) -> None:
     assert answer.code == SOLVED
     assert (answer.forces_w[~task.stance] == 0.0).all()
     assert (n >= -hair).all() and (n <= MOST_NORMAL * task.load_scale * WEIGHT + hair).all()
-    assert (np.maximum(abs(t1), abs(t2)) <= FRICTION * n + hair).all()
+    assert (np.maximum(abs(t1), abs(t2)) <= PYRAMID * task.friction * n + hair).all()
+    assert (np.hypot(t1, t2) <= 0.89 * task.friction * n + hair).all(), "outside the cone"
     assert (
         abs(torques_of(task, answer.forces_w))[task.stance] <= task.tau_max[task.stance] * (1 + 2e-6)
     ).all()
@@ -94,7 +96,7 @@ def test_standing_level_the_load_is_shared_evenly() -> None:
     evenly = np.tile([0.0, 0.0, WEIGHT / 4], (4, 1))
     up, four = np.array([0.0, 0.0, 1.0]), np.ones(4)
     ones, still = np.ones((4, 3)), np.zeros((4, 3))
-    answer = solve(Task(load, four > 0, four, up, evenly, ones, still, WEIGHT, HEIGHT))
+    answer = solve(Task(load, four > 0, four, GRIP * four, up, evenly, ones, still, WEIGHT, HEIGHT))
     np.testing.assert_allclose(answer.forces_w, evenly, atol=1e-4 * WEIGHT)
 
 
@@ -115,11 +117,11 @@ def test_some_of_these_tasks_press_against_every_limit() -> None:
         task = any_task(seed)
         forces = solve(task).forces_w
         t1, t2, n = in_contact(task, forces)[task.down].T
-        close = 1e-5 * WEIGHT
+        close, most = 1e-5 * WEIGHT, PYRAMID * task.friction[task.down]
         hit += [
             bool((n < close).any()),
             bool((n > MOST_NORMAL * task.load_scale[task.down] * WEIGHT - close).any()),
-            bool((np.maximum(abs(t1), abs(t2)) > FRICTION * n - close)[n > close].any()),
+            bool((np.maximum(abs(t1), abs(t2)) > most * n - close)[n > close].any()),
             bool((abs(torques_of(task, forces)) > task.tau_max - 1e-4)[task.down].any()),
         ]
     assert (hit >= 5).all(), hit

@@ -12,7 +12,7 @@ from gaitwright.bench.evidence.gaits import loads
 from gaitwright.bench.evidence.sharing_oracles import Task, by_highs
 from gaitwright.bench.trial import Trial
 from gaitwright.control.certificate import linear_status_of
-from gaitwright.control.forces import contact_frame
+from gaitwright.control.forces import PYRAMID, contact_frame
 from gaitwright.control.linear import Shared
 from gaitwright.control.thesis_program import LinearSettings, settings_of
 from gaitwright.numerics.geometry import GRAVITY
@@ -36,6 +36,11 @@ KINDS = {
     "six, literal": SIX._replace(literal=1.0),
 }
 kinds = st.sampled_from(list(KINDS.values()))
+
+
+def width_of(task: Task, asked: LinearSettings) -> np.ndarray:
+    """Half-width of the friction pyramid of each foot that is down, as a column."""
+    return np.minimum(asked.friction, PYRAMID * task.friction[task.down])[:, None]
 
 
 def agree(task: Task, asked: LinearSettings, shared: Shared) -> None:
@@ -133,7 +138,7 @@ def test_the_unmet_balance_and_the_limits_belong_to_the_forces(seed: int, asked:
     assert (x[:, 2] >= -1e-8).all() and (
         x[:, 2] <= asked.most_normal * task.load_scale[task.down] + 1e-8
     ).all()
-    assert (abs(x[:, :2]) <= asked.friction * x[:, 2:3] + 1e-8).all()
+    assert (abs(x[:, :2]) <= width_of(task, asked) * x[:, 2:3] + 1e-8).all()
     levers = np.array([asked.roll_lever, asked.pitch_lever, asked.twist_lever])
     assert (abs(x[:, 3:]) <= (levers * x[:, 2:3] / h + 1e-8)[:, : x.shape[1] - 3]).all()
 
@@ -158,7 +163,8 @@ def test_no_limit_without_contact_has_a_price() -> None:
         assert shared.code == SOLVED and not shared.multipliers[~task.stance].any()
         x = shared.x.reshape(-1, 3)
         priced = shared.multipliers[task.down] != 0.0
-        slip = np.stack([s * x[:, i] - 0.5 * x[:, 2] for i in (0, 1) for s in (1, -1)], axis=1)
+        most = width_of(task, CLOSED_LOOP)[:, 0] * x[:, 2]
+        slip = np.stack([s * x[:, i] - most for i in (0, 1) for s in (1, -1)], axis=1)
         assert (abs(slip[priced[:, :4]]) < 1e-8).all()
         assert (abs(x[priced[:, 4], 2]) < 1e-8).all()
         assert (abs(x[:, 2] - 1.5 * task.load_scale[task.down])[priced[:, 5]] < 1e-8).all()

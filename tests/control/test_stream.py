@@ -99,7 +99,7 @@ def test_a_row_holds_all_of_a_moment(trot: list[Lap]) -> None:
 
 def test_wrong_moments_are_named(trot: list[Lap]) -> None:
     job = job_of(robot_called("dog"), trot[:3])
-    with pytest.raises(WrongUse, match="job 0: dog has 4 legs, so 108 numbers a moment, not 107"):
+    with pytest.raises(WrongUse, match="job 0: dog has 4 legs, so 112 numbers a moment, not 111"):
         stream([replace(job, moments=job.moments[:, :-1])])
     broken = job.moments.copy()
     broken[2, 5] = np.nan
@@ -117,7 +117,7 @@ def test_wrong_moments_are_named(trot: list[Lap]) -> None:
 
 def test_no_moments_give_no_torques() -> None:
     dog = robot_called("dog")
-    assert stream([Job(dog, np.zeros((0, 108)))])[0].tau.shape == (0, 4, 3)
+    assert stream([Job(dog, np.zeros((0, 112)))])[0].tau.shape == (0, 4, 3)
 
 
 # --- the certificate in words ----------------------------------------------------------------------

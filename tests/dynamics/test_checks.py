@@ -109,8 +109,8 @@ def standing(name: str, rng: np.random.Generator):
     )  # fmt: skip
     down = np.ones(robot.n, dtype=bool)
     target = MotionTarget(
-        0.0, down, down.astype(float), np.full(robot.n, GRIP), UP, s.position_w, still, still, np.eye(3), still, still,
-        joints, joints, joints, q, still,
+        0.0, down, down.astype(float), np.full(robot.n, GRIP), UP, s.position_w, still, still,
+        np.eye(3), still, still, joints, joints, joints, q, still,
     )  # fmt: skip
     return robot, s, target
 

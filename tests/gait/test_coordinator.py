@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from gaitwright.gait.command import MAX_YAW_LEAD, POSITION_LEASH, SLEW, TURN_SLEW
 from gaitwright.gait.coordinator import Coordinator
+from gaitwright.gait.hurry import HURRY
 from gaitwright.gait.state import GaitMemory
 from gaitwright.model.kinematics import angles, feet
 from gaitwright.model.robot import Robot
@@ -118,7 +119,7 @@ def test_the_phase_goes_on_by_a_tick_or_waits(seed: int, skill: str, phase: floa
         if call.gait.duty == 1.0:
             assert gone == 0.0
         else:
-            assert gone == pytest.approx(step, abs=1e-12) or gone == 0.0
+            assert (1.0 - 1e-9) * step <= gone <= (1.0 + HURRY + 1e-9) * step or gone == 0.0
         assert 0.0 <= target.phase < 1.0 and target.phase == state.row[0]
         before = target.phase
 
@@ -127,7 +128,7 @@ def test_the_phase_goes_on_by_a_tick_or_waits(seed: int, skill: str, phase: floa
 def test_with_feet_that_land_a_little_early_a_cycle_takes_its_period(skill: str) -> None:
     call = call_of(skill)
     gait = call.gait
-    sensed = story(np.random.default_rng(1), 2)[1]
+    sensed = replace(story(np.random.default_rng(1), 2)[1], velocity_w=np.zeros(3))
     state = COORDINATOR.begin(sensed, 0.2)
     phase, ticks = 0.2, round(3 * gait.period / DT)
     for _ in range(ticks):
@@ -210,7 +211,7 @@ def test_left_and_right_are_alike(seed: int, skill: str) -> None:
         expected[name] = MIRROR * expected[name][:, OTHER_SIDE]
     expected["rotation_wb"] = MIRROR[:, None] * expected["rotation_wb"] * MIRROR
     expected["q"] = expected["q"][:, OTHER_SIDE] * [-1, 1, 1]
-    for name in ("stance", "load_scale"):
+    for name in ("stance", "load_scale", "friction"):
         expected[name] = expected[name][:, OTHER_SIDE]
     expected["command"] = expected["command"] * [1, -1, -1]
     assert_same(numbers(behind), expected, atol=1e-7)
