@@ -107,12 +107,18 @@ def foot_of(m: mujoco.MjModel, legs: Legs, i: int) -> Foot:
     for joint, anchor in zip(HINGES, anchors, strict=True):
         check_finite(f"the place of leg {name}, {joint},", anchor)
     last = np.flatnonzero(legs.owner == joints[2])
-    return required(find_foot(m, legs.data, last, anchors[2]), name)
+    return required(
+        find_foot(m, legs.data, last, anchors[2]), name, [m.body(int(body)).name for body in last]
+    )
 
 
 def shapes_of(m: mujoco.MjModel, legs: Legs, feet: list[Foot]) -> list[LegShape]:
     """Legs that end in these feet."""
-    named = zip(legs.joints, feet, legs.names, strict=True)
+    names = [
+        f"{name} (from joint {m.joint(int(row[0])).name!r})"
+        for name, row in zip(legs.names, legs.joints, strict=True)
+    ]
+    named = zip(legs.joints, feet, names, strict=True)
     return [shape_of(m, legs.data, joints, foot, legs.frame, name) for joints, foot, name in named]
 
 

@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 
 from gaitwright.description.aside import listed
-from gaitwright.description.legs import BASE, ELSEWHERE, Legs, limbs, three_hinges
+from gaitwright.description.legs import BASE, ELSEWHERE, Legs, limbs, number_of_joints, three_hinges
 from gaitwright.model.kinematics import angles
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.polygon import hull, margins
@@ -65,7 +65,7 @@ def unbalanced(m: mujoco.MjModel, legs: Legs, robot: Robot) -> tuple[str, ...]:
 def left_out(m: mujoco.MjModel, legs: Legs) -> tuple[str, ...]:
     """Sentences about limbs that are no legs, and about springs at the joints of legs."""
     others = [
-        f"the limb of {len(chain.joints)} joints from {m.joint(chain.joints[0]).name!r}"
+        f"the limb of {number_of_joints(chain.joints)} from {m.joint(chain.joints[0]).name!r}"
         for chain in limbs(m, legs.base)
         if not set(chain.joints) & set(legs.joints.ravel().tolist()) and not three_hinges(m, [chain])
     ]

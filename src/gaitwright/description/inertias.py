@@ -45,7 +45,12 @@ def mend_inertias(spec: mujoco.MjSpec) -> tuple[str, ...]:
 
 
 def give_masses(spec: mujoco.MjSpec) -> list:
-    """Gives a little mass to bodies that move on their own and have none, so that the model compiles."""
+    """Gives a little mass to bodies that move on their own and have none, so that the model compiles.
+
+    Raises `BadFile` where nothing has a mass.
+    """
+    if len(spec.bodies) > 1 and not any(has_mass(spec, body) for body in spec.bodies[1:]):
+        raise BadFile("none of its links has a mass; expected masses and inertias")
     total = sum(body.mass for body in spec.bodies[1:] if body.explicitinertial)
     given = []
     for body in spec.bodies[1:] if total > 0.0 else ():

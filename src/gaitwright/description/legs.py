@@ -7,6 +7,7 @@ import mujoco
 import numpy as np
 
 from gaitwright.description.arms import sorted_out
+from gaitwright.description.aside import listed
 from gaitwright.description.feet import find_foot
 from gaitwright.description.heading import LEG_NAMES, Heading, Limb
 from gaitwright.description.joint_tree import BASE, joints_after
@@ -54,7 +55,7 @@ def find_legs(m: mujoco.MjModel) -> Legs:
     """The legs of the robot in `m`. Raises `BadFile` where no floating body has 4, 6 or 8 of them."""
     bases = floating_bodies(m)
     if not bases:
-        raise BadFile("no floating body: expected a body with a free joint")
+        raise BadFile(f"no floating body{on_the_world(m)}: expected a body with a free joint")
     chains = {base: limbs(m, base) for base in bases}
     base = max(bases, key=lambda b: (len(three_hinges(m, chains[b])), m.body_subtreemass[b]))
     joints = np.array(three_hinges(m, chains[base]), dtype=int).reshape(-1, 3)
@@ -68,7 +69,8 @@ def find_legs(m: mujoco.MjModel) -> Legs:
     data = pose_at_zero(m, joints)
     frame, moves = framed(found, file_frame(data, base), way)
     names = LEG_NAMES[len(joints)]
-    return Legs(base, names, joints, owners(m, base, joints), data, frame, notes + moves)
+    alone = only_one(m, base, bases)
+    return Legs(base, names, joints, owners(m, base, joints), data, frame, alone + notes + moves)
 
 
 def read_limbs(m: mujoco.MjModel, base: int, joints: np.ndarray) -> list[Limb]:
@@ -124,6 +126,23 @@ def floating_bodies(m: mujoco.MjModel) -> list[int]:
     return [int(m.jnt_bodyid[j]) for j in range(m.njnt) if m.jnt_type[j] == mujoco.mjtJoint.mjJNT_FREE]
 
 
+def on_the_world(m: mujoco.MjModel) -> str:
+    """What to add where it is the world that carries the legs, as if the trunk had been melted into it."""
+    legs = three_hinges(m, limbs(m, 0))
+    if len(legs) < 4:
+        return ""
+    names = listed([repr(m.joint(leg[0]).name) for leg in legs])
+    return f": the limbs from {names} hang on the world itself, without a trunk and its mass"
+
+
+def only_one(m: mujoco.MjModel, base: int, bases: list[int]) -> tuple[str, ...]:
+    """A sentence where other bodies float than the robot's own."""
+    others = [repr(m.body(body).name) for body in bases if body != base]
+    if not others:
+        return ()
+    return (f"of the bodies that float {m.body(base).name!r} is taken: {listed(others)} are left out",)
+
+
 def limbs(m: mujoco.MjModel, base: int) -> list[Chain]:
     """Limbs of the floating body: maximal trees of joints, each listed from the base outwards."""
     children = joints_after(m, base)
@@ -157,9 +176,14 @@ def told(m: mujoco.MjModel, chains: list[Chain]) -> str:
     kinds = []
     for joints, branched in chains:
         others = sum(m.jnt_type[j] != hinge for j in joints)
-        what = f"{len(joints)} joints{f' ({others} of them no hinge)' if others else ''}"
+        what = f"{number_of_joints(joints)}{f' ({others} of them no hinge)' if others else ''}"
         kinds.append(f"{what}{' with a fork' if branched else ''} from {m.joint(joints[0]).name!r}")
     return "found limbs of " + ", ".join(kinds[:8])
+
+
+def number_of_joints(joints: tuple[int, ...]) -> str:
+    """So many joints, in words."""
+    return f"{len(joints)} joint{'s' if len(joints) > 1 else ''}"
 
 
 def pose_at_zero(m: mujoco.MjModel, joints: np.ndarray) -> mujoco.MjData:

@@ -43,7 +43,11 @@ def read_model(path: Path, packages: Mapping[str, Path] | None = None, visuals: 
     meshes = Meshes(path.parent, packages or {})
     tree = read_tree(path)
     aside = aside_of(tree)
-    tree = plain_mjcf(tree) if tree.tag == "mujoco" else plain_urdf(tree, meshes, visuals)
+    mended: tuple[str, ...] = ()
+    if tree.tag == "mujoco":
+        tree = plain_mjcf(tree)
+    else:
+        tree, mended = plain_urdf(tree, meshes, visuals)
     check_numbers(tree)
     try:
         spec = mujoco.MjSpec.from_string(ET.tostring(tree, encoding="unicode"))
@@ -52,7 +56,7 @@ def read_model(path: Path, packages: Mapping[str, Path] | None = None, visuals: 
     if tree.tag == "robot":
         let_float(spec)
     drop_meshes(spec, meshes)
-    notes, given = mend_inertias(spec), give_masses(spec)
+    notes, given = mended + mend_inertias(spec), give_masses(spec)
     model = compile_(spec)
     for change in (let_trunk_float, lambda spec, m: lock(spec, m, aside)):
         changed = change(spec, model)

@@ -99,8 +99,9 @@ class Reader:
         self.seen.add(path.resolve())
         data = path.read_bytes()
         self.left -= len(data)
+        data = declared_first(data)
         check_xml(data)
-        return ET.fromstring(data)
+        return without_namespace(ET.fromstring(data))
 
     def expanded(self, element: ET.Element) -> list[ET.Element]:
         """The children of an element with every `include` replaced by what it names."""
@@ -129,6 +130,27 @@ def inside(folder: Path, name: str) -> Path | None:
         return None
     path = (folder / name).resolve()
     return path if path.is_relative_to(folder.resolve()) and path.is_file() else None
+
+
+def declared_first(data: bytes) -> bytes:
+    """A text whose XML declaration is its first word: many a file has a comment or an empty line before it."""
+    end = 0
+    while end >= 0 and data[end:].lstrip()[:4] == b"<!--":
+        end = data.find(b"-->", end) + 3 or -1
+    start = len(data) - len(data[end:].lstrip()) if end >= 0 else 0
+    stop = data.find(b"?>", start) + 2
+    if start == 0 or data[start : start + 6] != b"<?xml " or stop < 2:
+        return data
+    return data[start:stop] + data[:start] + data[stop:]
+
+
+def without_namespace(root: ET.Element) -> ET.Element:
+    """A tree whose elements have plain names where the outermost one has a namespace for all of them."""
+    space, brace, _ = root.tag.rpartition("}")
+    if brace:
+        for element in root.iter():
+            element.tag = element.tag.removeprefix(space + brace)
+    return root
 
 
 def check_xml(data: bytes) -> None:
