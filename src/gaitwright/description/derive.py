@@ -6,7 +6,7 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from gaitwright.description.doubts import impossible_inertias, left_out, unbalanced
+from gaitwright.description.doubts import left_out, possible, unbalanced
 from gaitwright.description.feet import Foot, find_foot, lowest, required, solid
 from gaitwright.description.leg_shape import leg_frame, shape_of
 from gaitwright.description.legs import BASE, Legs, find_legs, home_pose
@@ -56,6 +56,7 @@ def derive(
     """
     legs = find_legs(m)
     feet, shapes, postures = stood(m, legs)
+    m, of_inertias = possible(m, legs, shapes)
     parts = [leg_body(m, legs, i, feet[i], postures[i]) for i in range(len(legs.names))]
     numbers = stacked(shapes) | stacked(parts)
     mass, com, inertia = merged(m, legs.data, legs.owner == BASE, *legs.frame)
@@ -73,12 +74,8 @@ def derive(
         **numbers,
     )
     check(robot)
-    doubts = (
-        *outside_limits(robot, shapes),
-        *impossible_inertias(m, legs, robot),
-        *unbalanced(m, legs, robot),
-    )
-    return robot, legs.notes + left_out(m, legs) + of_torques + of_rates + doubts
+    notes = legs.notes + left_out(m, legs) + of_torques + of_rates + of_inertias
+    return robot, notes + outside_limits(robot, shapes) + unbalanced(m, legs, robot)
 
 
 def stacked(legs: list) -> dict[str, np.ndarray]:

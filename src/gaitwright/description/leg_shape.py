@@ -14,6 +14,8 @@ AXES_TOLERANCE = 1e-3
 """Largest deviation [rad] of the hinges from: second square to the first, third parallel to the second."""
 NEARLY_ALONG = 0.94
 """An axis whose direction is this close (cosine) to x, y or z of the base is called by what it does."""
+NO_LIMIT = 1000.0
+"""A joint limit beyond this [rad] stands for none."""
 ROLL, PITCH, YAW = "roll", "pitch", "yaw"
 
 
@@ -36,7 +38,7 @@ def shape_of(
     """The leg of three hinges that ends in `foot`. Raises `BadFile` where its axes are not those of a leg."""
     frame, sign = leg_frame(d.xaxis[joints], base, name)
     anchors = d.xanchor[joints]
-    limited = m.jnt_limited[joints].astype(bool)[:, None]
+    limited = m.jnt_limited[joints].astype(bool)[:, None] & (np.abs(m.jnt_range[joints]) < NO_LIMIT)
     q_min, q_max = np.where(limited, m.jnt_range[joints], (-math.pi, math.pi)).T
     return LegShape(
         hip=base.points(anchors[0]),

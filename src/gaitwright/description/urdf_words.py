@@ -4,7 +4,7 @@ import math
 import xml.etree.ElementTree as ET
 
 from gaitwright.description.aside import listed
-from gaitwright.description.xmlfile import placed
+from gaitwright.description.xmlfile import keep, placed
 from gaitwright.errors import BadFile
 
 SINGLE = {
@@ -17,6 +17,7 @@ SINGLE = {
 """What an element has one of: readers take the first, MuJoCo none."""
 THREE = ("xyz", "rpy", "scale", "size")
 """Attributes of three numbers."""
+WORLD = "world"
 SIZES = {"sphere": ("radius",), "cylinder": ("radius", "length"), "box": ("size",), "mesh": ("filename",)}
 """Attributes without which a shape has no size."""
 
@@ -36,8 +37,13 @@ def first_of_each(root: ET.Element) -> tuple[str, ...]:
 
 
 def check_words(root: ET.Element) -> None:
-    """Raises `BadFile` for a joint whose links are not in the file, and for too many or few numbers."""
+    """Raises `BadFile` for a joint whose links are not in the file, and for too many or few numbers.
+
+    What hangs on the world is the root, also where the world is no link of the file.
+    """
     links = {link.get("name") for link in root.findall("link")}
+    if WORLD not in links:
+        keep(root, lambda child: child.tag != "joint" or parent_of(child) != WORLD)
     for joint in root.findall("joint"):
         for which in ("parent", "child"):
             found = joint.find(which)
@@ -47,11 +53,16 @@ def check_words(root: ET.Element) -> None:
                 raise BadFile(f"the {which} link of joint {joint.get('name', '')!r} is {what}")
     for element, where in placed(root):
         for name in THREE:
-            numbers = element.get(name, "0 0 0").split()
-            if len(numbers) != 3:
+            if len(element.get(name, "0 0 0").split()) != 3:
                 raise BadFile(
-                    f"{name}={element.get(name)!r} of {where} has {len(numbers)} numbers; expected 3"
+                    f"{name}={element.get(name)!r} of {where}: expected three numbers apart by spaces"
                 )
+
+
+def parent_of(joint: ET.Element) -> str | None:
+    """The link that a joint hangs on."""
+    parent = joint.find("parent")
+    return None if parent is None else parent.get("link")
 
 
 def is_sized(shape: ET.Element) -> bool:

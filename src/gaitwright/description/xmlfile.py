@@ -99,9 +99,7 @@ class Reader:
         self.seen.add(path.resolve())
         data = path.read_bytes()
         self.left -= len(data)
-        data = declared_first(data)
-        check_xml(data)
-        return without_namespace(ET.fromstring(data))
+        return parsed(declared_first(data))
 
     def expanded(self, element: ET.Element) -> list[ET.Element]:
         """The children of an element with every `include` replaced by what it names."""
@@ -133,7 +131,7 @@ def inside(folder: Path, name: str) -> Path | None:
 
 
 def declared_first(data: bytes) -> bytes:
-    """A text whose XML declaration is its first word: many a file has a comment or an empty line before it."""
+    """A text with its XML declaration first: many a file has a comment or an empty line before it."""
     end = 0
     while end >= 0 and data[end:].lstrip()[:4] == b"<!--":
         end = data.find(b"-->", end) + 3 or -1
@@ -144,40 +142,38 @@ def declared_first(data: bytes) -> bytes:
     return data[start:stop] + data[:start] + data[stop:]
 
 
-def without_namespace(root: ET.Element) -> ET.Element:
-    """A tree whose elements have plain names where the outermost one has a namespace for all of them."""
-    space, brace, _ = root.tag.rpartition("}")
-    if brace:
-        for element in root.iter():
-            element.tag = element.tag.removeprefix(space + brace)
-    return root
+def parsed(data: bytes) -> ET.Element:
+    """The tree of an XML text, prefixes of names as written: readers of robots take no notice of namespaces.
 
-
-def check_xml(data: bytes) -> None:
-    """Raises `BadFile` where `data` is not XML, declares a document type or nests too deep."""
-    depth = 0
+    Raises `BadFile` where `data` is not XML, declares a document type or nests too deep.
+    """
+    builder, depth = ET.TreeBuilder(), 0
 
     def refuse_doctype(*_):
         raise BadFile("it has a DOCTYPE; expected plain XML without entities")
 
-    def enter(*_):
+    def enter(tag, attributes):
         nonlocal depth
         depth += 1
         if depth > MAX_DEPTH:
             raise BadFile(f"its elements nest deeper than {MAX_DEPTH}")
+        builder.start(tag, {name: value for name, value in attributes.items() if name[:5] != "xmlns"})
 
-    def leave(*_):
+    def leave(tag):
         nonlocal depth
         depth -= 1
+        builder.end(tag)
 
     parser = expat.ParserCreate()
     parser.StartDoctypeDeclHandler = refuse_doctype
     parser.StartElementHandler = enter
     parser.EndElementHandler = leave
+    parser.CharacterDataHandler = builder.data
     try:
         parser.Parse(data, True)
     except (expat.ExpatError, ValueError, LookupError) as error:
         raise BadFile(f"not XML: {error}") from error
+    return builder.close()
 
 
 def plain_mjcf(root: ET.Element) -> ET.Element:
