@@ -66,9 +66,9 @@ def legs_in(path: Path) -> int | None:
         if path.stat().st_size > MAX_BYTES or is_scene(path):
             return None
         tree = read_tree(path)
+        return of_mjcf(tree) if tree.tag == "mujoco" else of_urdf(tree)
     except (BadFile, OSError, RecursionError):
         return 0 if path.suffix.lower() == ".urdf" else None
-    return of_mjcf(tree) if tree.tag == "mujoco" else of_urdf(tree)
 
 
 def is_scene(path: Path) -> bool:
