@@ -1,11 +1,13 @@
 """Numbers that can be read but hardly be true: a sentence with the links that they are of."""
 
+import math
 from copy import copy
 
 import mujoco
 import numpy as np
 
 from gaitwright.description.aside import listed
+from gaitwright.description.leg_shape import ROUNDED, crooked
 from gaitwright.description.legs import BASE, ELSEWHERE, Legs, limbs, number_of_joints, three_hinges
 from gaitwright.model.kinematics import angles
 from gaitwright.model.nominal_pose import LegShape
@@ -73,14 +75,17 @@ def unbalanced(m: mujoco.MjModel, legs: Legs, robot: Robot) -> tuple[str, ...]:
 
 
 def left_out(m: mujoco.MjModel, legs: Legs) -> tuple[str, ...]:
-    """Sentences about limbs that are no legs, and about springs at the joints of legs."""
+    """Sentences about limbs that are no legs, and about crooked hinges and springs at the joints of legs."""
     others = [
         f"the limb of {number_of_joints(chain.joints)} from {m.joint(chain.joints[0]).name!r}"
         for chain in limbs(m, legs.base)
         if not set(chain.joints) & set(legs.joints.ravel().tolist()) and not three_hinges(m, [chain])
     ]
     springs = [repr(m.joint(int(j)).name) for j in legs.joints.ravel() if m.jnt_stiffness[j] > 0.0]
+    off = max(max(crooked(legs.data.xaxis[joints])) for joints in legs.joints)
+    nearly = f"hinges are up to {math.degrees(off):.2f}° from square and parallel: taken as if they were not"
     return (
+        *((nearly,) if off > ROUNDED else ()),
         *(f"{other} is no leg: its joints are locked" for other in others[:MOST_LIMBS]),
         *((f"the springs at the joints {listed(springs)} are left out",) if springs else ()),
     )

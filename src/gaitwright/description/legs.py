@@ -131,10 +131,10 @@ def floating_bodies(m: mujoco.MjModel) -> list[int]:
 
 def on_the_world(m: mujoco.MjModel) -> str:
     """What to add where it is the world that carries the legs, as if the trunk had been melted into it."""
-    legs = three_hinges(m, limbs(m, 0))
+    legs = [chain for chain in limbs(m, 0) if len(chain.joints) >= 3]
     if len(legs) < 4:
         return ""
-    names = listed([repr(m.joint(leg[0]).name) for leg in legs])
+    names = listed([repr(m.joint(leg.joints[0]).name) for leg in legs])
     return f", for the limbs from {names} hang on the world itself, without a trunk and its mass"
 
 

@@ -4,7 +4,8 @@ from pathlib import Path
 
 import mujoco
 
-from gaitwright.description.meshes import Meshes
+from gaitwright.description.meshes import Meshes, is_read_by_mujoco
+from gaitwright.description.vertices import vertices_of
 from gaitwright.errors import BadFile
 
 
@@ -35,8 +36,17 @@ def drop_meshes(spec: mujoco.MjSpec, meshes: Meshes) -> None:
         if mesh.name not in used:
             spec.delete(mesh)
         elif mesh.file:
-            mesh.file = files[mesh.name]
+            put_mesh(mesh, Path(files[mesh.name]))
     spec.meshdir, spec.strippath = "", False
+
+
+def put_mesh(mesh, path: Path) -> None:
+    """Lets MuJoCo read a mesh from its file, or hands it the corners where it cannot."""
+    corners = None if is_read_by_mujoco(path) else vertices_of(path)
+    if corners is None:
+        mesh.file = str(path)
+    else:
+        mesh.file, mesh.uservert = "", corners.ravel()
 
 
 def mesh_file(spec: mujoco.MjSpec, mesh, meshes: Meshes) -> str | None:

@@ -65,15 +65,15 @@ def let_go(root: ET.Element) -> tuple[str, ...]:
     if len(robots) > 1:
         names = listed([repr(joint.get("name", "")) for joint in robots])
         raise BadFile(f"the joints {names} all let a part of it float; expected one robot with one trunk")
+    loose = [joint for joint in floating if joint not in robots]
+    adrift = loose + [after for joint in loose for after in below(joint, outwards)]
+    gone = {end(joint, "child") for joint in adrift}
+    keep(root, lambda child: child.tag == "mujoco" or (child not in adrift and owner(child) not in gone))
     if robots:
         links = {end(joint, "child") for joint in [robots[0], *below(robots[0], outwards)]}
         keep(root, lambda child: child.tag == "mujoco" or owner(child) in links)
-        return ()
-    adrift = floating + [after for joint in floating for after in below(joint, outwards)]
-    links = {end(joint, "child") for joint in adrift}
-    keep(root, lambda child: child.tag == "mujoco" or (child not in adrift and owner(child) not in links))
-    names = listed([repr(end(joint, "child")) for joint in floating])
-    return (f"the links {names} float beside the robot and are left out",)
+    names = listed([repr(end(joint, "child")) for joint in loose])
+    return (f"the links {names} float beside the robot and are left out",) if loose else ()
 
 
 def owner(child: ET.Element) -> str | None:
