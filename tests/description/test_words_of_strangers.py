@@ -208,3 +208,33 @@ def test_flat_meshes_are_shapes_like_others(tmp_path):
     thick, _ = read(tmp_path, text)
     flat, _ = read(tmp_path, text.replace('scale="1 1 1"', 'scale="1 1e-9 1"'))
     assert flat.offset[:, 2, 2] == pytest.approx(thick.offset[:, 2, 2], abs=0.01)
+
+
+# --- too little inertia, too little mass -----------------------------------------------------------
+def test_less_inertia_than_any_matter_has_is_that_of_water(tmp_path):
+    little = urdf().replace('ixx="7e-4" iyy="7e-4" izz="7e-4"', 'ixx="1e-8" iyy="1e-8" izz="1e-8"')
+    robot, notes = read(tmp_path, little)
+    assert "the inertia of 'a2', 'b2', 'c2', 'd2' is less than any matter of that mass has" in notes
+    radius = (0.7 / (1000 * 4 / 3 * np.pi)) ** (1 / 3)
+    assert robot.inertia[0, 1] == pytest.approx(np.eye(3) * 0.4 * 0.7 * radius**2)
+    osmium = 0.4 * 0.7 * (0.7 / (22_600 * 4 / 3 * np.pi)) ** (2 / 3)
+    for share, told in ((0.99, True), (1.01, False)):
+        value = f'"{share * osmium}"'
+        _, notes = read(tmp_path, little.replace('"1e-8"', value))
+        assert ("less than any matter" in notes) is told
+
+
+def test_thighs_to_which_no_mass_is_given_are_refused(tmp_path):
+    text = urdf().replace(link("a2", 0.7, "7e-4 7e-4 7e-4", "0 0 -0.1"), '<link name="a2"/>')
+    with pytest.raises(BadFile, match="leg FL has a thigh or shank without mass: "):
+        read(tmp_path, text)
+
+
+def test_hinges_that_are_nearly_parallel_are_taken_with_a_note(tmp_path, plain):
+    robot, notes = read(tmp_path, urdf().replace('<axis xyz="0 1 0"/>', '<axis xyz="0.002 1 0"/>', 1))
+    assert notes == "hinges are up to 0.11° from square and parallel: taken as if they were not"
+    assert robot.offset == pytest.approx(plain.offset, abs=1e-3)
+    with pytest.raises(
+        BadFile, match=r"leg FL \(from joint 'a_j1'\): its second hinge is 0\.57° from square"
+    ):
+        read(tmp_path, urdf().replace('<axis xyz="0 1 0"/>', '<axis xyz="0.01 1 0"/>', 1))

@@ -1,5 +1,6 @@
 """Masses and inertias that no body has are mended before MuJoCo sees them, and told."""
 
+import math
 from collections.abc import Iterator
 
 import mujoco
@@ -19,9 +20,13 @@ WATER = 1000.0
 ROUNDING = 1e-12
 """A + B may be less than C by this share."""
 
+DENSEST = 22_600.0
+"""Density of osmium [kg/m³]: no body is smaller than a ball of it that weighs as much."""
+
 POINT = "the inertia of {links} is none that a body has; being light, taken as a point of what carries it"
 BALL = "no inertia is given for {links}: taken as that of a ball of water"
 RAISED = "the inertia of {links} is none that a body has (A + B < C): its smaller parts raised to A + B = C"
+DENSE = "the inertia of {links} is less than any matter of that mass has: taken as that of a ball of water"
 WEIGHTLESS = "no mass is given for {links}, which moves on its own: taken as {mass:.2g} kg"
 
 
@@ -87,6 +92,9 @@ def mended(body, negligible: float, balanced: bool) -> str:
             return ""
         put_ball(body, body.mass)
         return BALL
+    if body.joints and values[2] < of_ball(body.mass, DENSEST):
+        put_ball(body, body.mass)
+        return DENSE
     short = values[2] - values[0] - values[1]
     if values[0] > SMALLEST and (short <= ROUNDING * values[2] or balanced):
         return ""
@@ -118,12 +126,17 @@ def put_tensor(body, tensor: Float[np.ndarray, "3 3"]) -> None:
 
 def put_ball(body, mass: float) -> None:
     """Gives a body a mass [kg], and the inertia of a ball of water that weighs as much."""
-    radius = (0.75 * mass / (np.pi * WATER)) ** (1.0 / 3.0)
     if not body.explicitinertial:
         body.explicitinertial, body.ipos = True, np.zeros(3)
     body.mass = mass
     body.fullinertia = np.full(6, np.nan)
-    body.inertia = np.full(3, max(SMALLEST, 0.4 * mass * radius**2))
+    body.inertia = np.full(3, max(SMALLEST, of_ball(mass, WATER)))
+
+
+def of_ball(mass: float, density: float) -> float:
+    """Inertia of a ball [kg·m²] of a mass [kg] and density [kg/m³]."""
+    radius = (0.75 * mass / (math.pi * density)) ** (1.0 / 3.0)
+    return 0.4 * mass * radius**2
 
 
 def rigid(body) -> Iterator:
