@@ -144,7 +144,7 @@ def test_other_bodies_that_float_are_told(tmp_path):
     ball = '<body name="ball" pos="1 0 0"><freejoint/><geom size=".1"/></body>'
     robot, notes = read(tmp_path, mjcf(base + ball))
     assert same(robot, alone)
-    assert "of the bodies that float 'trunk' is taken: 'ball' are left out" in notes
+    assert "of the bodies that float 'trunk' is taken, without 'ball'" in notes
 
 
 def test_legs_that_hang_on_the_world_are_told(tmp_path):
@@ -160,7 +160,7 @@ def test_impossible_inertias_become_those_of_rods_and_plates(tmp_path, plain):
     text = text.replace('ixx="0.05" iyy="0.15" izz="0.18"', 'ixx="500" iyy="1500" izz="1800"')
     robot, notes = read(tmp_path, text)
     assert "the inertia of 'trunk', 'a2', 'b2', 'c2', 'd2' is impossible for links of that mass" in notes
-    assert "('trunk' would have its mass 17 m from its middle): taken as that of a rod" in notes
+    assert "('trunk' would have its mass 17.3 m from its middle): taken as that of a rod" in notes
     assert robot.inertia[0, 1] == pytest.approx(np.eye(3) * 0.7 * 0.2**2 / 12)
     wide = np.hypot(0.2, 0.06)
     assert np.diag(robot.base_inertia) == pytest.approx(6.0 * wide**2 / 3.0 * np.array([5, 15, 18]) / 18)

@@ -46,7 +46,7 @@ def possible(m: mujoco.MjModel, legs: Legs, shapes: list[LegShape]) -> tuple[muj
     names = listed([repr(m.body(int(body)).name) for body in bodies[wrong]])
     return mended, (
         f"the inertia of {names} is impossible for links of that mass on a robot of this size "
-        f"({m.body(int(bodies[worst])).name!r} would have its mass {gyration[worst]:.2g} m from its middle): "
+        f"({m.body(int(bodies[worst])).name!r} would have its mass {gyration[worst]:.3g} m from its middle): "
         "taken as that of a rod of half a leg or a plate between the hips",
     )
 

@@ -143,7 +143,7 @@ def only_one(m: mujoco.MjModel, base: int, bases: list[int]) -> tuple[str, ...]:
     others = [repr(m.body(body).name) for body in bases if body != base]
     if not others:
         return ()
-    return (f"of the bodies that float {m.body(base).name!r} is taken: {listed(others)} are left out",)
+    return (f"of the bodies that float {m.body(base).name!r} is taken, without {listed(others)}",)
 
 
 def limbs(m: mujoco.MjModel, base: int) -> list[Chain]:

@@ -13,10 +13,14 @@ from gaitwright.description.floating import let_trunk_float
 from gaitwright.description.inertias import give_masses, mend_inertias, take_masses
 from gaitwright.description.locking import lock
 from gaitwright.description.meshes import Meshes
-from gaitwright.description.shapes import drop_meshes
+from gaitwright.description.shapes import drop_meshes, let_be_flat
 from gaitwright.description.urdf import plain_urdf
 from gaitwright.description.xmlfile import check_numbers, plain_mjcf, read_tree
 from gaitwright.errors import BadFile
+
+
+NO_VOLUME = "volume is too small"
+"""What MuJoCo says of a flat mesh."""
 
 
 class ModelRead(NamedTuple):
@@ -69,7 +73,13 @@ def read_model(path: Path, packages: Mapping[str, Path] | None = None, visuals: 
 
 
 def compile_(spec: mujoco.MjSpec) -> mujoco.MjModel:
-    """The model that a spec is of."""
+    """The model that a spec is of; a mesh that is flat is taken as a shell."""
+    try:
+        return spec.compile()
+    except (ValueError, mujoco.FatalError) as error:
+        if NO_VOLUME not in str(error):
+            raise refused(error) from error
+    let_be_flat(spec)
     try:
         return spec.compile()
     except (ValueError, mujoco.FatalError) as error:

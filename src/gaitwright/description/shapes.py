@@ -29,15 +29,20 @@ def drop_meshes(spec: mujoco.MjSpec, meshes: Meshes) -> None:
             if not weighs(spec, geom) and not (there and is_only_shape(geom)):
                 spec.delete(geom)
     used = {geom.meshname for geom in spec.geoms}
-    weighing = {geom.meshname for geom in spec.geoms if weighs(spec, geom)}
     for mesh in list(spec.meshes):
-        if mesh.name not in weighing:  # a volume is only wanted of what weighs, and flat ones have none
-            mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
         if mesh.name not in used:
             spec.delete(mesh)
-        elif mesh.file:
-            put_mesh(mesh, Path(files[mesh.name]))
+        elif path := files[mesh.name]:
+            put_mesh(mesh, Path(path))
     spec.meshdir, spec.strippath = "", False
+
+
+def let_be_flat(spec: mujoco.MjSpec) -> None:
+    """Wants no volume of meshes that weigh nothing: flat ones have none."""
+    weighing = {geom.meshname for geom in spec.geoms if weighs(spec, geom)}
+    for mesh in spec.meshes:
+        if mesh.name not in weighing:
+            mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
 
 
 def put_mesh(mesh, path: Path) -> None:
