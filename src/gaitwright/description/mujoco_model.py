@@ -18,7 +18,6 @@ from gaitwright.description.urdf import plain_urdf
 from gaitwright.description.xmlfile import check_numbers, plain_mjcf, read_tree
 from gaitwright.errors import BadFile
 
-
 NO_VOLUME = "volume is too small"
 """What MuJoCo says of a flat mesh."""
 
