@@ -86,6 +86,8 @@ def test_units_and_transformations_of_nodes_count(tmp_path):
         collada(BOX, "<matrix>1 2 3</matrix>"),
         collada(BOX, "<rotate>0 0 0 90</rotate>"),
         collada(BOX, unit="long"),
+        collada(BOX[:, :2], scene=False),
+        collada(np.zeros((8, 3))),
         stl_text(BOX).replace("-0.2", "1e999"),
         stl_text(BOX).replace("-0.2", "x"),
     ],
@@ -94,6 +96,13 @@ def test_units_and_transformations_of_nodes_count(tmp_path):
 def test_what_is_no_mesh_has_no_corners(tmp_path, text):
     assert found(tmp_path, "a.dae" if "COLLADA" in text else "a.stl", text) is None
     assert vertices_of(tmp_path / "missing.dae") is None
+
+
+def test_a_scene_that_shows_a_mesh_too_often_is_none(tmp_path, monkeypatch):
+    monkeypatch.setattr("gaitwright.description.vertices.MOST", 100)
+    often = '<instance_geometry url="#g"/>'
+    assert found(tmp_path, "a.dae", collada(BOX, inner=10 * often)) is not None
+    assert found(tmp_path, "a.dae", collada(BOX, inner=12 * often)) is None
 
 
 @pytest.mark.parametrize("name", ["shank.dae", "shank.stl"])

@@ -15,8 +15,8 @@ from gaitwright.errors import BadFile
 READ_HERE = (".dae", ".stl")
 """What is read here."""
 VERTEX = re.compile(rb"^\s*vertex\s+(\S+)\s+(\S+)\s+(\S+)\s*$", re.MULTILINE)
-FEWEST = 4
-"""A body has so many corners at least."""
+FEWEST, MOST = 4, 2_000_000
+"""A body has so many corners at least, and a mesh that is read at most."""
 
 Vertices = Float[np.ndarray, "corners 3"]
 
@@ -30,8 +30,10 @@ def vertices_of(path: Path) -> Vertices | None:
         found = collada(data) if path.suffix.lower() == ".dae" else stl_text(data)
     except (OSError, BadFile, ValueError, OverflowError):
         return None
+    if not np.isfinite(found).all():
+        return None
     corners = np.unique(found, axis=0)
-    return corners if len(corners) >= FEWEST and np.isfinite(corners).all() else None
+    return corners if len(corners) >= FEWEST else None
 
 
 def stl_text(data: bytes) -> Vertices:
@@ -46,7 +48,12 @@ def collada(data: bytes) -> Vertices:
     unit = root.find("asset/unit")
     metre = float(unit.get("meter", "1")) if unit is not None else 1.0
     shapes = {geometry.get("id"): positions(geometry) for geometry in root.iter("geometry")}
-    parts = [part for scene in root.iter("visual_scene") for part in shown(scene, np.eye(4), shapes)]
+    parts, corners = [], 0
+    for part in (part for scene in root.iter("visual_scene") for part in shown(scene, np.eye(4), shapes)):
+        parts.append(part)
+        corners += len(part)
+        if corners > MOST:
+            raise BadFile(f"its scene has more than {MOST} corners")
     return metre * np.concatenate(parts or [*shapes.values()] or [np.empty((0, 3))])
 
 
@@ -59,6 +66,8 @@ def positions(geometry: ET.Element) -> Vertices:
         if "#" + source.get("id", "") == name and array is not None:
             accessor = source.find("technique_common/accessor")
             stride = 3 if accessor is None else int(accessor.get("stride", "3"))
+            if stride < 3:
+                raise BadFile(f"its corners have {stride} numbers; expected 3")
             return np.array((array.text or "").split(), float).reshape(-1, stride)[:, :3]
     return np.empty((0, 3))
 
