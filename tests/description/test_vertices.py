@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from test_mended_files import meshed, read, same, write_box
+from test_mended_files import TRUNK, meshed, mjcf, read, same, write_box
 
 from gaitwright.description.vertices import vertices_of
 from gaitwright.errors import BadFile
@@ -125,3 +125,15 @@ def test_a_mesh_of_mujoco_is_preferred_and_a_flat_one_is_told(tmp_path):
     (tmp_path / "shank.dae").write_text(collada(BOX * [1, 0, 1]), encoding="utf-8")
     with pytest.raises(BadFile, match="shank"):
         read(tmp_path, meshed("shank.dae"))
+
+
+def test_no_mass_is_taken_from_corners(tmp_path):
+    (tmp_path / "shank.stl").write_text(stl_text(BOX))
+    shank = '<inertial pos="0 0 -.1" mass="0.2" diaginertia="2e-4 2e-4 2e-4"/>'
+    text = mjcf(
+        f'<body name="trunk"><freejoint/>{TRUNK}</body>', '<asset><mesh file="shank.stl"/></asset>'
+    ).replace('<geom type="sphere" size=".02" pos="0 0 -.2"/>', '<geom type="mesh" mesh="shank"/>')
+    robot, _ = read(tmp_path, text)
+    assert robot.offset[0, 2, 2] == pytest.approx(-0.19, abs=0.01)
+    with pytest.raises(BadFile, match="body 'a3' takes its mass from mesh 'shank'"):
+        read(tmp_path, text.replace(shank, ""))

@@ -27,7 +27,7 @@ POINT = "the inertia of {links} is none that a body has; being light, taken as a
 BALL = "no inertia is given for {links}: taken as that of a ball of water"
 RAISED = "the inertia of {links} is none that a body has (A + B < C): its smaller parts raised to A + B = C"
 DENSE = "the inertia of {links} is less than any matter of that mass has: taken as that of a ball of water"
-WEIGHTLESS = "no mass is given for {links}, which moves on its own: taken as {mass:.2g} kg"
+WEIGHTLESS = "no mass is given for {links}, which {moves} own: taken as {mass:.2g} kg"
 
 
 def mend_inertias(spec: mujoco.MjSpec) -> tuple[str, ...]:
@@ -72,7 +72,9 @@ def take_masses(spec: mujoco.MjSpec, given: list) -> tuple[str, ...]:
     for body in given:
         if body not in kept:
             body.mass, body.inertia = 0.0, np.zeros(3)
-    return (WEIGHTLESS.format(links=listed([repr(body.name) for body in kept]), mass=mass),) if kept else ()
+    moves = "moves on its" if len(kept) == 1 else "move on their"
+    links = listed([repr(body.name) for body in kept])
+    return (WEIGHTLESS.format(links=links, moves=moves, mass=mass),) if kept else ()
 
 
 def fixed_to(body, given: list) -> list:

@@ -12,7 +12,8 @@ from gaitwright.errors import BadFile
 def drop_meshes(spec: mujoco.MjSpec, meshes: Meshes) -> None:
     """Deletes the meshes that no mass hangs on and that are not the only shape of their body.
 
-    Those that stay must be files that may be read. Raises `BadFile` where a mass hangs on one that is not.
+    Those that stay must be files that may be read. Raises `BadFile` where a mass hangs on one that is not: of
+    those that we read and MuJoCo does not there are corners only.
     """
     files = {mesh.name: mesh_file(spec, mesh, meshes) for mesh in spec.meshes}
     names = {mesh.name: mesh.file for mesh in spec.meshes}
@@ -20,8 +21,9 @@ def drop_meshes(spec: mujoco.MjSpec, meshes: Meshes) -> None:
         if geom.type in (mujoco.mjtGeom.mjGEOM_HFIELD, mujoco.mjtGeom.mjGEOM_SDF):
             spec.delete(geom)
         elif geom.meshname:
-            there = files.get(geom.meshname) is not None
-            if weighs(spec, geom) and not there:
+            path = files.get(geom.meshname)
+            there = path is not None
+            if weighs(spec, geom) and not (there and (path == "" or is_read_by_mujoco(Path(path)))):
                 why = meshes.why(names.get(geom.meshname, geom.meshname))
                 raise BadFile(f"body {geom.parent.name!r} takes its mass from mesh {geom.meshname!r}: {why}")
             if not there and is_only_shape(geom):
