@@ -238,3 +238,24 @@ def test_hinges_that_are_nearly_parallel_are_taken_with_a_note(tmp_path, plain):
         BadFile, match=r"leg FL \(from joint 'a_j1'\): its second hinge is 0\.57° from square"
     ):
         read(tmp_path, urdf().replace('<axis xyz="0 1 0"/>', '<axis xyz="0.01 1 0"/>', 1))
+
+
+# --- what is included ------------------------------------------------------------------------------
+def test_parts_beside_the_folder_are_included_from_folders_that_may_be_read(tmp_path):
+    (tmp_path / "dog").mkdir()
+    (tmp_path / "common").mkdir()
+    text = mjcf(f'<body name="trunk"><freejoint/>{TRUNK}</body>')
+    alone, _ = read(tmp_path, text)
+    base = text[: text.index("<actuator")]
+    path = tmp_path / "dog" / "robot.xml"
+    path.write_text(base + '<include file="../common/motors.xml"/></mujoco>')
+    (tmp_path / "common" / "motors.xml").write_text(
+        f"<mujocoinclude>{text[text.index('<actuator') : text.index('</mujoco>')]}</mujocoinclude>"
+    )
+    with pytest.raises(BadFile, match=r"it includes '\.\./common/motors\.xml', which is not a file inside"):
+        load_robot_and_notes(path)
+    robot, _ = load_robot_and_notes(path, {"common": tmp_path / "common"})
+    assert same(robot, alone)
+    (tmp_path / "package.xml").write_text("<package/>")
+    robot, _ = load_robot_and_notes(path)
+    assert same(robot, alone)

@@ -44,7 +44,7 @@ def read_model(path: Path, packages: Mapping[str, Path] | None = None, visuals: 
     stands for collision shapes that it lacks.
     """
     meshes = Meshes(path.parent, packages or {})
-    tree = read_tree(path)
+    tree = read_tree(path, meshes.allowed)
     aside = aside_of(tree)
     mended: tuple[str, ...] = ()
     if tree.tag == "mujoco":

@@ -6,7 +6,7 @@ text; meshes are still named, `shapes.py` decides which of them are opened.
 
 import math
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from xml.parsers import expat
 
@@ -36,9 +36,12 @@ SHORTEST_AXIS = 1e-14
 """An axis shorter than this has no direction, here as in MuJoCo."""
 
 
-def read_tree(path: Path) -> ET.Element:
-    """The whole tree of an MJCF or URDF file with what it includes. Raises `BadFile`, without its name."""
-    reader = Reader(path.parent)
+def read_tree(path: Path, allowed: Sequence[Path] = ()) -> ET.Element:
+    """The whole tree of an MJCF or URDF file with what it includes. Raises `BadFile`, without its name.
+
+    `allowed`: folders in which what it includes may be, beside its own.
+    """
+    reader = Reader(path.parent, allowed)
     root = reader.read(path)
     if root.tag == "mujoco":
         root[:] = reader.expanded(root)
@@ -84,10 +87,10 @@ def numbers_in(value: str) -> list[float]:
 
 
 class Reader:
-    """Reads the files of one folder, each once, up to `MAX_BYTES` in all."""
+    """Reads the files of a folder and of those allowed, each once, up to `MAX_BYTES` in all."""
 
-    def __init__(self, folder: Path):
-        self.folder = folder
+    def __init__(self, folder: Path, allowed: Sequence[Path] = ()):
+        self.folder, self.allowed = folder, (folder, *allowed)
         self.seen: set[Path] = set()
         self.left = MAX_BYTES
 
@@ -113,21 +116,25 @@ class Reader:
         return children
 
     def included(self, name: str) -> ET.Element:
-        """The tree of an included file of the same folder."""
-        path = inside(self.folder, name)
+        """The tree of an included file, by its place seen from the first one."""
+        path = inside(self.folder, name, self.allowed)
         if path is None:
-            raise BadFile(f"it includes {name!r}, which is not a file inside its own folder")
+            raise BadFile(
+                f"it includes {name!r}, which is not a file inside its own folder or package; "
+                "--package NAME=FOLDER names one more folder"
+            )
         if path in self.seen:
             raise BadFile(f"it includes {name!r} twice")
         return self.read(path)
 
 
-def inside(folder: Path, name: str) -> Path | None:
-    """The existing file `name` of a folder or below it; `None` where it is missing or elsewhere."""
+def inside(folder: Path, name: str, allowed: Sequence[Path]) -> Path | None:
+    """The existing file `name` seen from a folder; `None` where it is missing or in no folder `allowed`."""
     if not name or "\0" in name or "://" in name:
         return None
     path = (folder / name).resolve()
-    return path if path.is_relative_to(folder.resolve()) and path.is_file() else None
+    may = any(path.is_relative_to(root.resolve()) for root in allowed)
+    return path if may and path.is_file() else None
 
 
 def declared_first(data: bytes) -> bytes:
