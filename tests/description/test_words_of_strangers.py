@@ -259,3 +259,14 @@ def test_parts_beside_the_folder_are_included_from_folders_that_may_be_read(tmp_
     (tmp_path / "package.xml").write_text("<package/>")
     robot, _ = load_robot_and_notes(path)
     assert same(robot, alone)
+
+
+# --- torque limits of joints that resist -----------------------------------------------------------
+def test_a_missing_torque_limit_is_enough_to_move_joints_that_resist(tmp_path):
+    limit = '<limit lower="-2.7" upper="2.7" effort="0" velocity="20"/>'
+    free, notes = read(tmp_path, urdf(limit=limit))
+    assert notes.endswith("a lever of half a leg")
+    stiff, notes = read(tmp_path, urdf(limit=limit + '<dynamics damping="0.5" friction="0.3"/>'))
+    assert notes.endswith("a lever of half a leg and moves the joints against what they resist")
+    rate = np.sqrt(9.81 / free.leg_length)
+    assert stiff.tau_max == pytest.approx(free.tau_max + 0.3 + 0.5 * rate, rel=1e-3)

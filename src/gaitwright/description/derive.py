@@ -10,7 +10,7 @@ from gaitwright.description.doubts import left_out, possible, unbalanced
 from gaitwright.description.feet import Foot, find_foot, lowest, required, solid
 from gaitwright.description.leg_shape import leg_frame, shape_of
 from gaitwright.description.legs import BASE, Legs, find_legs, home_pose
-from gaitwright.description.limits import rate_limits, torque_limit, with_torque_limits
+from gaitwright.description.limits import rate_limits, resisted, torque_limit, with_torque_limits
 from gaitwright.description.validate import check, check_finite
 from gaitwright.errors import BadFile
 from gaitwright.model import nominal_pose as stance
@@ -61,7 +61,10 @@ def derive(
     numbers = stacked(shapes) | stacked(parts)
     mass, com, inertia = merged(m, legs.data, legs.owner == BASE, *legs.frame)
     total = mass + numbers["mass"].sum()
-    numbers["tau_max"], of_torques = with_torque_limits(legs.names, shapes, numbers["tau_max"], total)
+    resisting = resisted(shapes, numbers["damping"], numbers["friction"])
+    numbers["tau_max"], of_torques = with_torque_limits(
+        legs.names, shapes, numbers["tau_max"], total, resisting
+    )
     rate_max, of_rates = rate_limits(m, legs.joints, shapes, rates or {})
     robot = Robot(
         name=name,
