@@ -96,7 +96,7 @@ def test_a_folder_is_measured_file_by_file(tmp_path: Path, monkeypatch: pytest.M
     arm, good, massless, total, clear = measured(tmp_path, monkeypatch)
     assert (arm.what, arm.measured, arm.reached) == ("arm.urdf", 0.0, None)
     assert arm.note
-    assert good.what == "good.xml: walk, trot, turn"
+    assert good.what == "good.xml"
     assert good.measured_text == "3 of 3"
     assert good.note == "walk 1/1, trot 1/1, turn-in-place 1/1"
     assert massless.note

@@ -70,13 +70,19 @@ def test_of_what_is_there_twice_the_first_counts(tmp_path, plain):
     )
 
 
+def test_of_more_than_three_numbers_the_first_count(tmp_path, plain):
+    robot, notes = read(tmp_path, urdf().replace('xyz="0 0 -0.2"', 'xyz="0 0 -0.2 9"', 1))
+    assert same(robot, plain)
+    assert notes == "of more than three numbers the first three count: xyz of <origin> in joint 'a_j3'"
+
+
 @pytest.mark.parametrize(
     ("old", "new", "sentence"),
     [
         (
             'xyz="0 0 -0.2"',
-            'xyz="0 0 -0.2 0"',
-            "xyz='0 0 -0.2 0' of <origin> in joint 'a_j3': expected three",
+            'xyz="0 -0.2"',
+            "xyz='0 -0.2' of <origin> in joint 'a_j3': expected three",
         ),
         ('xyz="0 0 -0.2"', 'xyz="0,0,-0.2"', "xyz='0,0,-0.2' of <origin> in joint 'a_j3': expected three"),
         (

@@ -24,8 +24,7 @@ def plain_urdf(root: ET.Element, meshes: Meshes, visuals: bool) -> tuple[ET.Elem
     if any("xacro" in str(element.tag) for element in root.iter()):
         raise BadFile("it is a xacro template; expected the URDF that xacro makes of it")
     keep(root, lambda child: child.tag in URDF_SECTIONS)
-    repeated = first_of_each(root)
-    check_words(root)
+    notes = first_of_each(root) + check_words(root)
     for link in root.findall("link"):
         choose_shapes(link, meshes, visuals)
     for element in list(root.iter()):
@@ -36,7 +35,7 @@ def plain_urdf(root: ET.Element, meshes: Meshes, visuals: bool) -> tuple[ET.Elem
             keep(joint, lambda child: child.tag != "axis")
     for limit in root.findall("joint/limit"):
         limit.attrib = {name: value for name, value in limit.attrib.items() if is_finite(value)}
-    return root, repeated + let_go(root)
+    return root, notes + let_go(root)
 
 
 def one_compiler(root: ET.Element) -> None:

@@ -36,10 +36,11 @@ def first_of_each(root: ET.Element) -> tuple[str, ...]:
     return (f"of what is there twice, the first one counts: {listed(dropped)}",) if dropped else ()
 
 
-def check_words(root: ET.Element) -> None:
-    """Raises `BadFile` for a joint whose links are not in the file, and for too many or few numbers.
+def check_words(root: ET.Element) -> tuple[str, ...]:
+    """Raises `BadFile` for a joint whose links are not in the file, and for too few numbers.
 
-    What hangs on the world is the root, also where the world is no link of the file.
+    What hangs on the world is the root, also where the world is no link of the file. Of more than three
+    numbers the first three count; a sentence about it.
     """
     links = {link.get("name") for link in root.findall("link")}
     if WORLD not in links:
@@ -51,12 +52,18 @@ def check_words(root: ET.Element) -> None:
             if named not in links:
                 what = "none" if named is None else f"{named!r}, which is not in the file"
                 raise BadFile(f"the {which} link of joint {joint.get('name', '')!r} is {what}")
+    long = []
     for element, where in placed(root):
         for name in THREE:
-            if len(element.get(name, "0 0 0").split()) != 3:
+            words = element.get(name, "0 0 0").split()
+            if len(words) < 3:
                 raise BadFile(
                     f"{name}={element.get(name)!r} of {where}: expected three numbers apart by spaces"
                 )
+            if len(words) > 3:
+                element.set(name, " ".join(words[:3]))
+                long.append(f"{name} of {where}")
+    return (f"of more than three numbers the first three count: {listed(long)}",) if long else ()
 
 
 def parent_of(joint: ET.Element) -> str | None:

