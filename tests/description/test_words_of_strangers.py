@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
+from test_bodies_of_strangers import CORNERS, chain, robot_and_notes, star
 from test_bodies_of_strangers import dog as dog_limbs
-from test_bodies_of_strangers import robot_and_notes, star
 from test_mended_files import TRUNK, joint, link, mjcf, read, same, shape, urdf, write_box
 
 from gaitwright.description.load import load_robot_and_notes
 from gaitwright.errors import BadFile
+from gaitwright.model.kinematics import angles
 
 
 @pytest.fixture
@@ -276,3 +277,21 @@ def test_a_missing_torque_limit_is_enough_to_move_joints_that_resist(tmp_path):
     assert notes.endswith("a lever of half a leg and moves the joints against what they resist")
     rate = np.sqrt(9.81 / free.leg_length)
     assert stiff.tau_max == pytest.approx(free.tau_max + 0.3 + 0.5 * rate, rel=1e-3)
+
+
+# --- legs that stick out sideways at zero angles ---------------------------------------------------
+@pytest.mark.parametrize("tilt", [0.0, 1e-9, -1e-9])
+def test_legs_that_stick_out_at_zero_angles_all_hang_down(tilt):
+    limbs = "".join(
+        chain(
+            name,
+            [f"{0.2 * i} {0.1 * j} 0", f"0 {0.05 * j} 0", f"0 {0.2 * j} 0"],
+            ("1 0 0", f"0 {tilt * i} 1", f"0 {tilt * i} 1"),
+            f"0 {0.2 * j} 0",
+        )
+        for name, (i, j) in zip("pqrs", CORNERS, strict=True)
+    )
+    robot, _ = robot_and_notes(limbs)
+    assert robot.nominal_feet[:, 2] == pytest.approx(-0.05 - 0.65 * 0.4, abs=1e-6)
+    q, _ = angles(robot, robot.nominal_feet)
+    assert q[:, 0] == pytest.approx(np.array([-1, 1, -1, 1]) * np.pi / 2, abs=1e-6)
