@@ -255,8 +255,16 @@ def test_the_doctor_names_the_command_that_mends(
     assert "-m pip install" in out
 
 
-def test_bench_is_passed_on(monkeypatch: pytest.MonkeyPatch):
+def test_bench_is_passed_on(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
     asked = []
-    monkeypatch.setattr(bench, "run", lambda *words: asked.append(words) or 0, raising=False)
+    monkeypatch.setattr(
+        bench, "run", lambda *words, robots: asked.append((*words, robots)) or 0, raising=False
+    )
     assert main(["bench", "tick", "--quick", "--json", "-"]) == 0
-    assert asked == [(["tick"], True, "-")]
+    assert main(["bench", "strangers", "--robots", str(tmp_path)]) == 0
+    assert asked == [(["tick"], True, "-", None), (["strangers"], False, None, tmp_path)]
+
+
+def test_a_folder_of_robots_that_is_none_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    assert main(["bench", "strangers", "--robots", str(tmp_path / "none")]) == 2
+    assert "none: no such folder" in capsys.readouterr().err

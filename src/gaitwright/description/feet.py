@@ -1,6 +1,7 @@
 """The foot of a leg: the sphere with which its last link meets the ground."""
 
 import re
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import mujoco
@@ -21,7 +22,11 @@ AXIS = np.array([0.0, 0.0, 1.0])
 
 
 class NoFoot(BadFile):
-    """A leg ends in nothing that could be its foot."""
+    """A leg ends in nothing that could be its foot: none of these links, fixed to one another, has one."""
+
+    def __init__(self, sentence: str, links: Sequence[str]):
+        super().__init__(sentence)
+        self.links = links
 
 
 class Foot(NamedTuple):
@@ -135,11 +140,12 @@ def named_foot(m: mujoco.MjModel, d: mujoco.MjData, bodies: np.ndarray, knee: np
     return round_end(far, clipped(0.0, length), knee) if length > 0.0 else None
 
 
-def required(foot: Foot | None, leg: str) -> Foot:
-    """The foot, or a `NoFoot` that says what would have been one."""
+def required(foot: Foot | None, leg: str, links: Sequence[str]) -> Foot:
+    """The foot, or a `NoFoot` that says what would have been one; `links` are those of the leg's end."""
     if foot is None:
         raise NoFoot(
             f"leg {leg} has no foot: expected a collision shape, or a fixed body or site "
-            "with 'foot' in its name, on its last link"
+            "with 'foot' in its name, on its last link",
+            links,
         )
     return foot

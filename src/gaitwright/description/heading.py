@@ -61,14 +61,14 @@ class Heading(NamedTuple):
     order: np.ndarray
     why: str
 
-    @property
-    def words(self) -> str:
-        """Forward in the axes of the file."""
+    def words(self, x: str = "x", y: str = "y") -> str:
+        """Forward in the axes of the file, whose level ones are called `x` and `y`."""
         quarters = self.turn / (0.5 * math.pi)
         if abs(quarters - round(quarters)) < ROUNDED:
-            return f"the file's {('x', 'y', '-x', '-y')[round(quarters) % 4]} axis"
+            axis = (x, y, "-" + x, "-" + y)[round(quarters) % 4]
+            return f"the file's {axis.removeprefix('--')} axis"
         side = "left" if self.turn > 0.0 else "right"
-        return f"{abs(math.degrees(self.turn)):.3g}° to the {side} of the file's x axis"
+        return f"{abs(math.degrees(self.turn)):.3g}° to the {side} of the file's {x} axis"
 
 
 def heading(limbs: list[Limb]) -> Heading | None:

@@ -1,5 +1,6 @@
 """Masses and inertias that no body has are mended before MuJoCo sees them, and told."""
 
+import math
 from collections.abc import Iterator
 
 import mujoco
@@ -19,10 +20,14 @@ WATER = 1000.0
 ROUNDING = 1e-12
 """A + B may be less than C by this share."""
 
+DENSEST = 22_600.0
+"""Density of osmium [kg/m³]: no body is smaller than a ball of it that weighs as much."""
+
 POINT = "the inertia of {links} is none that a body has; being light, taken as a point of what carries it"
 BALL = "no inertia is given for {links}: taken as that of a ball of water"
 RAISED = "the inertia of {links} is none that a body has (A + B < C): its smaller parts raised to A + B = C"
-WEIGHTLESS = "no mass is given for {links}, which moves on its own: taken as {mass:.2g} kg"
+DENSE = "the inertia of {links} is less than any matter of that mass has: taken as that of a ball of water"
+WEIGHTLESS = "no mass is given for {links}, which {moves} own: taken as {mass:.2g} kg"
 
 
 def mend_inertias(spec: mujoco.MjSpec) -> tuple[str, ...]:
@@ -45,7 +50,12 @@ def mend_inertias(spec: mujoco.MjSpec) -> tuple[str, ...]:
 
 
 def give_masses(spec: mujoco.MjSpec) -> list:
-    """Gives a little mass to bodies that move on their own and have none, so that the model compiles."""
+    """Gives a little mass to bodies that move on their own and have none, so that the model compiles.
+
+    Raises `BadFile` where nothing has a mass.
+    """
+    if len(spec.bodies) > 1 and not any(has_mass(spec, body) for body in spec.bodies[1:]):
+        raise BadFile("none of its links has a mass; expected masses and inertias")
     total = sum(body.mass for body in spec.bodies[1:] if body.explicitinertial)
     given = []
     for body in spec.bodies[1:] if total > 0.0 else ():
@@ -62,7 +72,9 @@ def take_masses(spec: mujoco.MjSpec, given: list) -> tuple[str, ...]:
     for body in given:
         if body not in kept:
             body.mass, body.inertia = 0.0, np.zeros(3)
-    return (WEIGHTLESS.format(links=listed([repr(body.name) for body in kept]), mass=mass),) if kept else ()
+    moves = "moves on its" if len(kept) == 1 else "move on their"
+    links = listed([repr(body.name) for body in kept])
+    return (WEIGHTLESS.format(links=links, moves=moves, mass=mass),) if kept else ()
 
 
 def fixed_to(body, given: list) -> list:
@@ -82,6 +94,9 @@ def mended(body, negligible: float, balanced: bool) -> str:
             return ""
         put_ball(body, body.mass)
         return BALL
+    if body.joints and values[2] < of_ball(body.mass, DENSEST):
+        put_ball(body, body.mass)
+        return DENSE
     short = values[2] - values[0] - values[1]
     if values[0] > SMALLEST and (short <= ROUNDING * values[2] or balanced):
         return ""
@@ -113,12 +128,17 @@ def put_tensor(body, tensor: Float[np.ndarray, "3 3"]) -> None:
 
 def put_ball(body, mass: float) -> None:
     """Gives a body a mass [kg], and the inertia of a ball of water that weighs as much."""
-    radius = (0.75 * mass / (np.pi * WATER)) ** (1.0 / 3.0)
     if not body.explicitinertial:
         body.explicitinertial, body.ipos = True, np.zeros(3)
     body.mass = mass
     body.fullinertia = np.full(6, np.nan)
-    body.inertia = np.full(3, max(SMALLEST, 0.4 * mass * radius**2))
+    body.inertia = np.full(3, max(SMALLEST, of_ball(mass, WATER)))
+
+
+def of_ball(mass: float, density: float) -> float:
+    """Inertia of a ball [kg·m²] of a mass [kg] and density [kg/m³]."""
+    radius = (0.75 * mass / (math.pi * density)) ** (1.0 / 3.0)
+    return 0.4 * mass * radius**2
 
 
 def rigid(body) -> Iterator:

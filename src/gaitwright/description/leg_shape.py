@@ -10,10 +10,14 @@ from gaitwright.description.feet import Foot
 from gaitwright.errors import BadFile
 from gaitwright.model.nominal_pose import LegShape
 
-AXES_TOLERANCE = 1e-3
+AXES_TOLERANCE = 5e-3
 """Largest deviation [rad] of the hinges from: second square to the first, third parallel to the second."""
+ROUNDED = 1e-3
+"""So much of it is rounding and not told [rad]."""
 NEARLY_ALONG = 0.94
 """An axis whose direction is this close (cosine) to x, y or z of the base is called by what it does."""
+NO_LIMIT = 1000.0
+"""A joint limit beyond this [rad] stands for none."""
 ROLL, PITCH, YAW = "roll", "pitch", "yaw"
 
 
@@ -36,7 +40,7 @@ def shape_of(
     """The leg of three hinges that ends in `foot`. Raises `BadFile` where its axes are not those of a leg."""
     frame, sign = leg_frame(d.xaxis[joints], base, name)
     anchors = d.xanchor[joints]
-    limited = m.jnt_limited[joints].astype(bool)[:, None]
+    limited = m.jnt_limited[joints].astype(bool)[:, None] & (np.abs(m.jnt_range[joints]) < NO_LIMIT)
     q_min, q_max = np.where(limited, m.jnt_range[joints], (-math.pi, math.pi)).T
     return LegShape(
         hip=base.points(anchors[0]),
@@ -56,8 +60,7 @@ def offsets(anchors: np.ndarray, foot: Foot, frame: np.ndarray) -> np.ndarray:
 def leg_frame(axes: np.ndarray, base: Frame, name: str) -> tuple[np.ndarray, float]:
     """Orthonormal frame on the first two axes of a leg (rows of `axes`, world), and the sign of the third."""
     first, second, third = axes
-    off_square = math.asin(min(1.0, abs(float(first @ second))))
-    off_parallel = math.asin(min(1.0, float(np.linalg.norm(np.cross(second, third)))))
+    off_square, off_parallel = crooked(axes)
     if off_square > AXES_TOLERANCE:
         raise BadFile(
             f"leg {name}: its second hinge is {math.degrees(off_square):.2f}° from square to the first"
@@ -71,6 +74,13 @@ def leg_frame(axes: np.ndarray, base: Frame, name: str) -> tuple[np.ndarray, flo
     y = second - (second @ first) * first
     y /= np.linalg.norm(y)
     return np.column_stack([first, y, np.cross(first, y)]), math.copysign(1.0, float(second @ third))
+
+
+def crooked(axes: np.ndarray) -> tuple[float, float]:
+    """How far hinges are off: the second from square to the first, the third from parallel to it [rad]."""
+    first, second, third = axes
+    off_square = math.asin(min(1.0, abs(float(first @ second))))
+    return off_square, math.asin(min(1.0, float(np.linalg.norm(np.cross(second, third)))))
 
 
 def in_words(axes: np.ndarray) -> str:

@@ -7,10 +7,12 @@ import mujoco
 import numpy as np
 
 from gaitwright.description.arms import sorted_out
+from gaitwright.description.aside import listed
 from gaitwright.description.feet import find_foot
 from gaitwright.description.heading import LEG_NAMES, Heading, Limb
 from gaitwright.description.joint_tree import BASE, joints_after
 from gaitwright.description.leg_shape import Frame, shape_of
+from gaitwright.description.upright import Up, upright
 from gaitwright.description.validate import ABSURD
 from gaitwright.errors import BadFile
 from gaitwright.model.nominal_pose import LegShape
@@ -54,7 +56,7 @@ def find_legs(m: mujoco.MjModel) -> Legs:
     """The legs of the robot in `m`. Raises `BadFile` where no floating body has 4, 6 or 8 of them."""
     bases = floating_bodies(m)
     if not bases:
-        raise BadFile("no floating body: expected a body with a free joint")
+        raise BadFile(f"no floating body{on_the_world(m)}; expected a body with a free joint")
     chains = {base: limbs(m, base) for base in bases}
     base = max(bases, key=lambda b: (len(three_hinges(m, chains[b])), m.body_subtreemass[b]))
     joints = np.array(three_hinges(m, chains[base]), dtype=int).reshape(-1, 3)
@@ -62,19 +64,20 @@ def find_legs(m: mujoco.MjModel) -> Legs:
         raise BadFile(
             f"{len(joints)} legs of three hinges where 4, 6 or 8 are expected; {told(m, chains[base])}"
         )
-    found = read_limbs(m, base, joints)
+    data = pose_at_zero(m, joints)
+    up = upright(read_limbs(m, base, joints, file_frame(data, base)), file_frame(data, base))
+    found = read_limbs(m, base, joints, up.frame)
     kept, way, notes = sorted_out(found)
     found, joints = [found[kept[i]] for i in way.order], joints[kept][way.order]
     data = pose_at_zero(m, joints)
-    frame, moves = framed(found, file_frame(data, base), way)
-    names = LEG_NAMES[len(joints)]
-    return Legs(base, names, joints, owners(m, base, joints), data, frame, notes + moves)
+    frame, moves = framed(found, up, way)
+    names, notes = LEG_NAMES[len(joints)], only_one(m, base, bases) + up.notes + notes + moves
+    return Legs(base, names, joints, owners(m, base, joints), data, frame, notes)
 
 
-def read_limbs(m: mujoco.MjModel, base: int, joints: np.ndarray) -> list[Limb]:
-    """Limbs `(limbs, 3)` of joints in the axes of the file, each with its shape if it has one of a leg."""
+def read_limbs(m: mujoco.MjModel, base: int, joints: np.ndarray, frame: Frame) -> list[Limb]:
+    """Limbs `(limbs, 3)` of joints in a frame of the base, each with its shape if it has one of a leg."""
     data, owner = pose_at_zero(m, joints), owners(m, base, joints)
-    frame = file_frame(data, base)
     hips = frame.points(data.xanchor[joints[:, 0]])
     shapes = [shape_if_any(m, data, owner, row, frame) for row in joints]
     names = [m.joint(int(row[0])).name for row in joints]
@@ -100,9 +103,9 @@ def file_frame(data: mujoco.MjData, base: int) -> Frame:
     return Frame(data.xmat[base].reshape(3, 3), data.xpos[base])
 
 
-def framed(limbs: list[Limb], frame: Frame, way: Heading) -> tuple[Frame, tuple[str, ...]]:
+def framed(limbs: list[Limb], up: Up, way: Heading) -> tuple[Frame, tuple[str, ...]]:
     """The base frame turned so that x is forward and moved to the hips where it lies off, and sentences."""
-    notes = []
+    frame, notes = up.frame, []
     lengths = [limb.shape.stretched for limb in limbs if limb.shape is not None]
     middle = np.mean([limb.hip for limb in limbs], axis=0)
     if lengths and (np.abs(middle) > FAR_OFF * np.median(lengths)).any():
@@ -115,13 +118,32 @@ def framed(limbs: list[Limb], frame: Frame, way: Heading) -> tuple[Frame, tuple[
     if way.turn:
         c, s = math.cos(way.turn), math.sin(way.turn)
         frame = frame._replace(axes=frame.axes @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]))
-        notes.append(f"forward is {way.words}, {way.why}: the robot is turned so that forward is x")
+        notes.append(
+            f"forward is {way.words(*up.names)}, {way.why}: the robot is turned so that forward is x"
+        )
     return frame, tuple(notes)
 
 
 def floating_bodies(m: mujoco.MjModel) -> list[int]:
     """Bodies with a free joint."""
     return [int(m.jnt_bodyid[j]) for j in range(m.njnt) if m.jnt_type[j] == mujoco.mjtJoint.mjJNT_FREE]
+
+
+def on_the_world(m: mujoco.MjModel) -> str:
+    """What to add where it is the world that carries the legs, as if the trunk had been melted into it."""
+    legs = [chain for chain in limbs(m, 0) if len(chain.joints) >= 3]
+    if len(legs) < 4:
+        return ""
+    names = listed([repr(m.joint(leg.joints[0]).name) for leg in legs])
+    return f", for the limbs from {names} hang on the world itself, without a trunk and its mass"
+
+
+def only_one(m: mujoco.MjModel, base: int, bases: list[int]) -> tuple[str, ...]:
+    """A sentence where other bodies float than the robot's own."""
+    others = [repr(m.body(body).name) for body in bases if body != base]
+    if not others:
+        return ()
+    return (f"of the bodies that float {m.body(base).name!r} is taken, without {listed(others)}",)
 
 
 def limbs(m: mujoco.MjModel, base: int) -> list[Chain]:
@@ -157,9 +179,14 @@ def told(m: mujoco.MjModel, chains: list[Chain]) -> str:
     kinds = []
     for joints, branched in chains:
         others = sum(m.jnt_type[j] != hinge for j in joints)
-        what = f"{len(joints)} joints{f' ({others} of them no hinge)' if others else ''}"
+        what = f"{number_of_joints(joints)}{f' ({others} of them no hinge)' if others else ''}"
         kinds.append(f"{what}{' with a fork' if branched else ''} from {m.joint(joints[0]).name!r}")
     return "found limbs of " + ", ".join(kinds[:8])
+
+
+def number_of_joints(joints: tuple[int, ...]) -> str:
+    """So many joints, in words."""
+    return f"{len(joints)} joint{'s' if len(joints) > 1 else ''}"
 
 
 def pose_at_zero(m: mujoco.MjModel, joints: np.ndarray) -> mujoco.MjData:

@@ -54,27 +54,37 @@ def both_ways(limits: np.ndarray) -> float:
     return max(0.0, min(-float(limits[0]), float(limits[1])))
 
 
-def with_torque_limits(names: tuple[str, ...], shapes: list[LegShape], tau_max: np.ndarray, total: float):
+def with_torque_limits(
+    names: tuple[str, ...], shapes: list[LegShape], tau_max: np.ndarray, total: float, resisting: np.ndarray
+):
     """Torque limits without gaps and placeholders, and sentences where there were some.
 
-    `total` is the robot's mass [kg]. A joint without a limit gets the torque that carries the whole weight on
-    two legs, with a lever of half a leg.
+    `total` is the robot's mass [kg], `resisting` what joints resist by themselves [N·m]. A joint without a
+    limit gets that and the torque that carries the whole weight on two legs, with a lever of half a leg.
     """
     lengths = np.array([shape.stretched for shape in shapes])
-    derived = np.tile(0.25 * total * GRAVITY * lengths[:, None], 3)
+    derived = np.tile(0.25 * total * GRAVITY * lengths[:, None], 3) + resisting
     bound = NO_LIMIT * total * GRAVITY * lengths[:, None]
     missing, beyond = np.isnan(tau_max), tau_max > bound
     notes = []
     if missing.any():
         what = f"no torque limit is given for {missing.sum()} joints (legs {where(names, missing)})"
-        notes.append(f"{what}: {taken(derived[missing])}")
+        notes.append(f"{what}: {taken(derived[missing], resisting[missing])}")
     if beyond.any():
         what = (
             f"the torque limit of {tau_max[beyond].max():g} N·m at {beyond.sum()} joints "
             f"(legs {where(names, beyond)}) is beyond {NO_LIMIT:g} × weight × leg length, which is no limit"
         )
-        notes.append(f"{what}: {taken(derived[beyond])}")
+        notes.append(f"{what}: {taken(derived[beyond], resisting[beyond])}")
     return np.where(missing | beyond, derived, tau_max), tuple(notes)
+
+
+def resisted(
+    shapes: list[LegShape], damping: np.ndarray, friction: np.ndarray
+) -> Float[np.ndarray, "legs 3"]:
+    """What joints resist by friction and, at √(g / length of a leg), by damping [N·m]."""
+    rate = np.sqrt(GRAVITY / np.array([shape.stretched for shape in shapes]))
+    return friction + damping * rate[:, None]
 
 
 def where(names: tuple[str, ...], joints: Bool[np.ndarray, "legs 3"]) -> str:
@@ -82,10 +92,12 @@ def where(names: tuple[str, ...], joints: Bool[np.ndarray, "legs 3"]) -> str:
     return ", ".join(name for name, row in zip(names, joints, strict=True) if row.any())
 
 
-def taken(derived: np.ndarray) -> str:
-    """What stands for a missing limit."""
+def taken(derived: np.ndarray, resisting: np.ndarray) -> str:
+    """What stands for missing limits."""
+    beside = " and moves the joints against what they resist" if resisting.any() else ""
     return (
         f"taken as {derived.max():.1f} N·m, which carries the weight on two legs with a lever of half a leg"
+        f"{beside}"
     )
 
 

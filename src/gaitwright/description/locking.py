@@ -147,8 +147,10 @@ def of_tip(tree: JointTree, joint: int, above: float, aside: Aside) -> str | Non
     driven = {int(j) for j in m.actuator_trnid[:, 0]}
     undriven = bool(driven) and joint not in driven and not aside.loops
     idle = m.jnt_stiffness[joint] > 0.0 or undriven
+    if idle:
+        return TOE
     short = tree.reach(joint, tree.d.xanchor[joint]) <= SHORT * above
-    return TOE if idle or short else None
+    return (TOE if m.jnt_limited[joint] else WHEEL) if short else None
 
 
 def is_wheel(tree: JointTree, joint: int) -> bool:

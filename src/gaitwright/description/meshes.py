@@ -12,6 +12,8 @@ from functools import cached_property, lru_cache
 from itertools import islice
 from pathlib import Path
 
+from gaitwright.description.vertices import READ_HERE, vertices_of
+
 MESH_SUFFIXES = (".obj", ".stl", ".msh")
 """What MuJoCo reads."""
 LONGEST_NAME = 1000
@@ -66,11 +68,12 @@ class Meshes:
         if not name or len(name) > LONGEST_NAME or "\0" in name:
             return None
         places = list(self.places(name.replace("\\", "/"), meshdir))
-        for exact in (True, False):
-            for place in places:
-                found = self.usable(place, exact)
-                if found is not None:
-                    return found
+        for usable in (self.usable, self.read_here):
+            for exact in (True, False):
+                for place in places:
+                    found = usable(place, exact)
+                    if found is not None:
+                        return found
         return None
 
     def places(self, name: str, meshdir: str) -> Iterator[Path]:
@@ -96,8 +99,16 @@ class Meshes:
             path = Path(os.path.normpath(place.with_suffix(suffix)))
             path = path if exact else self.in_other_letters(path)
             if path is not None and path.suffix.lower() in MESH_SUFFIXES and self.may_read(path):
-                return path.resolve() if is_mesh(path) else None
+                return path.resolve() if is_read_by_mujoco(path) else None
         return None
+
+    def read_here(self, place: Path, exact: bool) -> Path | None:
+        """A mesh at that place that we read and MuJoCo does not."""
+        path = Path(os.path.normpath(place))
+        path = path if exact else self.in_other_letters(path)
+        if path is None or path.suffix.lower() not in READ_HERE or not self.may_read(path):
+            return None
+        return path.resolve() if vertices_of(path) is not None else None
 
     def may_read(self, path: Path) -> bool:
         """Whether a path is a file inside the allowed folders, links followed."""
@@ -123,7 +134,7 @@ class Meshes:
         """Why a mesh is missing, and what would help."""
         package = re.match(r"(?:package|model)://([^/]+)", name)
         known = package[1] if package else "NAME"
-        found = "is not an OBJ, binary STL or MSH file in the folders that may be read"
+        found = "is not an OBJ, STL, COLLADA or MSH file in the folders that may be read"
         return f"mesh {name!r} {found}; --package {known}=FOLDER names one more"
 
 
@@ -143,8 +154,10 @@ def names_in(folder: Path) -> dict[str, str]:
         return {}
 
 
-def is_mesh(path: Path) -> bool:
+def is_read_by_mujoco(path: Path) -> bool:
     """Whether a file looks like one that MuJoCo reads: no placeholder, and STL in its binary form."""
+    if path.suffix.lower() not in MESH_SUFFIXES:
+        return False
     try:
         with path.open("rb") as file:
             head = file.read(STL_HEAD)

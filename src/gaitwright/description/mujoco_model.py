@@ -13,10 +13,13 @@ from gaitwright.description.floating import let_trunk_float
 from gaitwright.description.inertias import give_masses, mend_inertias, take_masses
 from gaitwright.description.locking import lock
 from gaitwright.description.meshes import Meshes
-from gaitwright.description.shapes import drop_meshes
+from gaitwright.description.shapes import drop_meshes, let_be_flat
 from gaitwright.description.urdf import plain_urdf
 from gaitwright.description.xmlfile import check_numbers, plain_mjcf, read_tree
 from gaitwright.errors import BadFile
+
+NO_VOLUME = "volume is too small"
+"""What MuJoCo says of a flat mesh."""
 
 
 class ModelRead(NamedTuple):
@@ -41,9 +44,13 @@ def read_model(path: Path, packages: Mapping[str, Path] | None = None, visuals: 
     stands for collision shapes that it lacks.
     """
     meshes = Meshes(path.parent, packages or {})
-    tree = read_tree(path)
+    tree = read_tree(path, meshes.allowed)
     aside = aside_of(tree)
-    tree = plain_mjcf(tree) if tree.tag == "mujoco" else plain_urdf(tree, meshes, visuals)
+    mended: tuple[str, ...] = ()
+    if tree.tag == "mujoco":
+        tree = plain_mjcf(tree)
+    else:
+        tree, mended = plain_urdf(tree, meshes, visuals)
     check_numbers(tree)
     try:
         spec = mujoco.MjSpec.from_string(ET.tostring(tree, encoding="unicode"))
@@ -52,7 +59,7 @@ def read_model(path: Path, packages: Mapping[str, Path] | None = None, visuals: 
     if tree.tag == "robot":
         let_float(spec)
     drop_meshes(spec, meshes)
-    notes, given = mend_inertias(spec), give_masses(spec)
+    notes, given = mended + mend_inertias(spec), give_masses(spec)
     model = compile_(spec)
     for change in (let_trunk_float, lambda spec, m: lock(spec, m, aside)):
         changed = change(spec, model)
@@ -65,7 +72,13 @@ def read_model(path: Path, packages: Mapping[str, Path] | None = None, visuals: 
 
 
 def compile_(spec: mujoco.MjSpec) -> mujoco.MjModel:
-    """The model that a spec is of."""
+    """The model that a spec is of; a mesh that is flat is taken as a shell."""
+    try:
+        return spec.compile()
+    except (ValueError, mujoco.FatalError) as error:
+        if NO_VOLUME not in str(error):
+            raise refused(error) from error
+    let_be_flat(spec)
     try:
         return spec.compile()
     except (ValueError, mujoco.FatalError) as error:

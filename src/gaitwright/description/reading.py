@@ -34,10 +34,11 @@ def described(read: ModelRead, name: str) -> tuple[Robot, tuple[str, ...]]:
     try:
         robot, notes = derive(read.model, name, read.aside.rates)
     except NoFoot as error:
-        if not read.meshes.lost:
+        lost = [link for link in error.links if link in read.meshes.lost]
+        if not lost:
             raise
-        link, mesh = next(iter(read.meshes.lost.items()))
-        raise NoFoot(f"{error}; of link {link!r}, {read.meshes.why(mesh)}") from error
+        why = read.meshes.why(read.meshes.lost[lost[0]])
+        raise NoFoot(f"{error}; of link {lost[0]!r}, {why}", error.links) from error
     except BadFile as error:
         if not read.aside.loops:
             raise

@@ -11,6 +11,8 @@ from gaitwright.model.robot import Robot
 
 ABSURD = 1e6
 """No number of a robot is as large as this, in SI units."""
+LIGHTEST = 1.5e-3
+"""A thigh or shank of less than this share of the mass has none; a link without one is given less."""
 PER_JOINT = (
     "mass",
     "com",
@@ -57,7 +59,7 @@ def check(robot: Robot) -> None:
     if robot.base_mass <= 0.0:
         raise BadFile("the floating body has no mass")
     for name, masses in zip(robot.legs, robot.mass, strict=True):
-        if masses[1] <= 0.0 or masses[2] <= 0.0:
+        if masses[1:].min() <= LIGHTEST * robot.total_mass:
             raise BadFile(f"leg {name} has a thigh or shank without mass: {masses.round(6).tolist()} kg")
 
 

@@ -6,7 +6,7 @@ text; meshes are still named, `shapes.py` decides which of them are opened.
 
 import math
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from xml.parsers import expat
 
@@ -36,9 +36,12 @@ SHORTEST_AXIS = 1e-14
 """An axis shorter than this has no direction, here as in MuJoCo."""
 
 
-def read_tree(path: Path) -> ET.Element:
-    """The whole tree of an MJCF or URDF file with what it includes. Raises `BadFile`, without its name."""
-    reader = Reader(path.parent)
+def read_tree(path: Path, allowed: Sequence[Path] = ()) -> ET.Element:
+    """The whole tree of an MJCF or URDF file with what it includes. Raises `BadFile`, without its name.
+
+    `allowed`: folders in which what it includes may be, beside its own.
+    """
+    reader = Reader(path.parent, allowed)
     root = reader.read(path)
     if root.tag == "mujoco":
         root[:] = reader.expanded(root)
@@ -84,10 +87,10 @@ def numbers_in(value: str) -> list[float]:
 
 
 class Reader:
-    """Reads the files of one folder, each once, up to `MAX_BYTES` in all."""
+    """Reads the files of a folder and of those allowed, each once, up to `MAX_BYTES` in all."""
 
-    def __init__(self, folder: Path):
-        self.folder = folder
+    def __init__(self, folder: Path, allowed: Sequence[Path] = ()):
+        self.folder, self.allowed = folder, (folder, *allowed)
         self.seen: set[Path] = set()
         self.left = MAX_BYTES
 
@@ -99,8 +102,7 @@ class Reader:
         self.seen.add(path.resolve())
         data = path.read_bytes()
         self.left -= len(data)
-        check_xml(data)
-        return ET.fromstring(data)
+        return parsed(declared_first(data))
 
     def expanded(self, element: ET.Element) -> list[ET.Element]:
         """The children of an element with every `include` replaced by what it names."""
@@ -114,48 +116,71 @@ class Reader:
         return children
 
     def included(self, name: str) -> ET.Element:
-        """The tree of an included file of the same folder."""
-        path = inside(self.folder, name)
+        """The tree of an included file, by its place seen from the first one."""
+        path = inside(self.folder, name, self.allowed)
         if path is None:
-            raise BadFile(f"it includes {name!r}, which is not a file inside its own folder")
+            raise BadFile(
+                f"it includes {name!r}, which is not a file inside its own folder or package; "
+                "--package NAME=FOLDER names one more folder"
+            )
         if path in self.seen:
             raise BadFile(f"it includes {name!r} twice")
         return self.read(path)
 
 
-def inside(folder: Path, name: str) -> Path | None:
-    """The existing file `name` of a folder or below it; `None` where it is missing or elsewhere."""
+def inside(folder: Path, name: str, allowed: Sequence[Path]) -> Path | None:
+    """The existing file `name` seen from a folder; `None` where it is missing or in no folder `allowed`."""
     if not name or "\0" in name or "://" in name:
         return None
     path = (folder / name).resolve()
-    return path if path.is_relative_to(folder.resolve()) and path.is_file() else None
+    may = any(path.is_relative_to(root.resolve()) for root in allowed)
+    return path if may and path.is_file() else None
 
 
-def check_xml(data: bytes) -> None:
-    """Raises `BadFile` where `data` is not XML, declares a document type or nests too deep."""
-    depth = 0
+def declared_first(data: bytes) -> bytes:
+    """A text with its XML declaration first: many a file has a comment or an empty line before it."""
+    end = 0
+    while end >= 0 and data[end:].lstrip()[:4] == b"<!--":
+        end = data.find(b"-->", end) + 3 or -1
+    start = len(data) - len(data[end:].lstrip()) if end >= 0 else 0
+    stop = data.find(b"?>", start) + 2
+    if start == 0 or data[start : start + 6] != b"<?xml " or stop < 2:
+        return data
+    return data[start:stop] + data[:start] + data[stop:]
+
+
+def parsed(data: bytes) -> ET.Element:
+    """The tree of an XML text, prefixes of names as written: readers of robots take no notice of namespaces.
+
+    Raises `BadFile` where `data` is not XML, declares a document type or nests too deep.
+    """
+    builder, depth = ET.TreeBuilder(), 0
 
     def refuse_doctype(*_):
         raise BadFile("it has a DOCTYPE; expected plain XML without entities")
 
-    def enter(*_):
+    def enter(tag, attributes):
         nonlocal depth
         depth += 1
         if depth > MAX_DEPTH:
             raise BadFile(f"its elements nest deeper than {MAX_DEPTH}")
+        builder.start(tag, {name: value for name, value in attributes.items() if name[:5] != "xmlns"})
 
-    def leave(*_):
+    def leave(tag):
         nonlocal depth
         depth -= 1
+        builder.end(tag)
 
     parser = expat.ParserCreate()
     parser.StartDoctypeDeclHandler = refuse_doctype
     parser.StartElementHandler = enter
     parser.EndElementHandler = leave
+    parser.CharacterDataHandler = builder.data
     try:
         parser.Parse(data, True)
     except (expat.ExpatError, ValueError, LookupError) as error:
         raise BadFile(f"not XML: {error}") from error
+    return builder.close()
 
 
 def plain_mjcf(root: ET.Element) -> ET.Element:

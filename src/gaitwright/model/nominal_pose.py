@@ -18,6 +18,8 @@ DEPTH_BELOW_ABDUCTION = 0.65
 """Abduction leg: depth of the foot below hinge 2, per length of the stretched leg."""
 DEPTH_BELOW_YAW, REACH_FROM_YAW = 0.45, 0.40
 """Yaw leg: depth of the foot below hinge 2 and its distance sideways, per length of the stretched leg."""
+SIDEWAYS = 0.1
+"""A leg sticks out at zero angles where the cosine of hinge 2 and the level line across is smaller."""
 STRIDE = 0.35
 """A leg that yaws stands so far from the limits of its first hinge that it can take a step [rad]."""
 COMFORT = 0.2
@@ -68,10 +70,28 @@ def nominal_foot(leg: LegShape) -> Float[np.ndarray, "3"]:
 
 
 def below_abduction(leg: LegShape) -> Float[np.ndarray, "3"]:
-    """Straight below hinge 2, the plane of the leg vertical: only its offset loads the first hinge."""
+    """Straight below hinge 2, the plane of the leg vertical: only its offset loads the first hinge.
+
+    A leg that sticks out sideways at zero angles may be turned down either way: within its limits, and so
+    that hinge 2 is below hinge 1.
+    """
     axis = leg.leg_frame[:, 0]
     lateral = np.cross(UP, axis)
-    lateral *= (1.0 if lateral @ leg.leg_frame[:, 1] >= 0.0 else -1.0) / np.linalg.norm(lateral)
+    lateral /= np.linalg.norm(lateral)
+    straight = float(lateral @ leg.leg_frame[:, 1])
+    if abs(straight) > SIDEWAYS:
+        return below_hinge2(leg, lateral if straight >= 0.0 else -lateral)
+
+    def merit(foot: Float[np.ndarray, "3"]) -> tuple[float, float]:
+        room = max((leg.margin(q) for q in branch_angles(leg, foot).values()), default=-math.inf)
+        return round(min(room, COMFORT), 6), -round(float(foot[2]), 6)
+
+    return max((below_hinge2(leg, lateral), below_hinge2(leg, -lateral)), key=merit)
+
+
+def below_hinge2(leg: LegShape, lateral: Float[np.ndarray, "3"]) -> Float[np.ndarray, "3"]:
+    """The foot straight below hinge 2, whose axis points along `lateral`."""
+    axis = leg.leg_frame[:, 0]
     hinge2 = leg.hip + np.column_stack([axis, lateral, np.cross(axis, lateral)]) @ leg.offset[0]
     aside = leg.offset[1:, 1].sum() * lateral
     return hinge2 + aside - DEPTH_BELOW_ABDUCTION * leg.stretched * UP
