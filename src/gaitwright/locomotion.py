@@ -21,6 +21,7 @@ from gaitwright.model.robot import Robot
 from gaitwright.navigation.navigator import Navigator
 from gaitwright.perception.known_ground import KnownGround
 from gaitwright.signals import (
+    Fault,
     Gait,
     GroundMap,
     Measured,
@@ -201,6 +202,8 @@ class Lap(NamedTuple):
     """Why the run ends with this lap."""
     arrived: bool = False
     fell: bool = False
+    faults: tuple[Fault, ...] = ()
+    """What was noticed to be broken so far."""
 
     @property
     def torques(self) -> MotorCommand:

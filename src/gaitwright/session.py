@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from gaitwright.control.lowering import Lowering
 from gaitwright.control.numerical import idle
 from gaitwright.errors import NoRoom, WrongUse, is_interrupt
 from gaitwright.ground.scene import Scene
@@ -19,14 +20,19 @@ from gaitwright.numerics.geometry import heading, rotation
 from gaitwright.perception.known_ground import KnownGround
 from gaitwright.record.recording import Recorder, Recording
 from gaitwright.record.scene_of import scene_for, scene_scale  # noqa: F401 - found here by all who set up runs
-from gaitwright.signals import Measured, Mission
+from gaitwright.signals import LIES_DOWN, Measured, Mission
 from gaitwright.stages import Plant, SimulatedPlant
-from gaitwright.termination import Ending, Termination
+from gaitwright.skills.chooser import fixed_skill
+from gaitwright.termination import STILL, Ending, Termination
 
 DT = 0.002
 """Control period [s]: 500 Hz."""
 PUSH_LASTS = 0.1
 """How long a push lasts where nothing else is said [s]."""
+
+
+STOPS = 3.0
+"""After a trip a robot may take so long to come to a stand, times √(height / 1 m) [s]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +73,7 @@ class Session:
     """One robot's run from its start to its end.
 
     `seed` varies the start where `vary`: pose, velocity and the phase of the gait. After the last step, or
-    `close`, the motors are off.
+    `close`, the motors are off; where it `lowers`, they go on until `lower` has let the robot down.
     """
 
     def __init__(
@@ -78,7 +84,9 @@ class Session:
         seconds: float = 60.0,
         seed: int = 0,
         vary: bool = True,
+        lowers: bool = False,
     ) -> None:
+        self.lowers = lowers and getattr(plant, "has_mechanics", True)
         self.brain, self.plant = brain, plant
         self.measured: Measured = plant.reset(seed, vary)
         phase = float(np.random.default_rng([seed, 1]).uniform()) if vary else 0.0
@@ -110,12 +118,43 @@ class Session:
             lap, self.mind = think(self.brain, self.mind, self.measured)
             ending = self.termination.judge(lap.sensed, lap.route, lap.call, lap.target, lap.command)
             self.lap = ended(lap, ending) if ending else lap
-        if self.is_over:
-            self.close()
-        else:
+        if not self.is_over:
             self.push_if_due(self.lap)
             self.measured = self.plant.step(self.lap.command)
+        elif not self.can_lower:
+            self.close()
         return self.lap
+
+    @property
+    def can_lower(self) -> bool:
+        """Whether there is a robot on its feet that can be let down."""
+        lap = self.lap
+        if not self.lowers or self.closed or lap is None or lap.fell:
+            return False
+        return self.measured.is_finite() and bool(np.isfinite(lap.command.tau).all())
+
+    def lower(self) -> Iterator[Lap]:
+        """Lets the robot down after a trip that is over or cut off: laps of no trip, then motors off."""
+        try:
+            if self.can_lower and self.lap is not None:
+                yield from self.lowered(self.lap)
+        finally:
+            self.close()
+
+    def lowered(self, last: Lap) -> Iterator[Lap]:
+        """The laps of `lower`; a state that is no number ends them."""
+        if self.pushing_until is not None:
+            self.simulated().push((0.0, 0.0, 0.0))
+        broken = any(fault.answer == LIES_DOWN for fault in last.faults)
+        for lap in () if broken else self.stopping(last):
+            yield (last := lap)
+        way = Lowering(self.brain.robot, self.plant.dt, self.measured, last.command, limp=broken)
+        call, begun = replace(last.call, skill="lie-down"), self.measured.time
+        while (after := self.measured.time - begun) < way.lasts and self.measured.is_finite():
+            told = way.command(after)
+            given = way.given(told, self.measured)
+            yield last._replace(sensed=self.measured, call=call, command=given, took=(0.0, 0.0))
+            self.measured = self.plant.step(told)
 
     def __iter__(self) -> Iterator[Lap]:
         """Laps until the run is over or paused; motors off however that comes about."""
@@ -123,8 +162,25 @@ class Session:
             while (lap := self.step()) is not None:
                 yield lap
         finally:
-            if not self.paused:
+            if not self.paused and not self.can_lower:
                 self.close()
+
+    def stopping(self, last: Lap) -> Iterator[Lap]:
+        """The laps in which a robot that still moves comes to stand on all its feet."""
+        brain, memories = self.brain, self.mind.memories
+        call = fixed_skill(brain.robot, "stand", 0.0, 0.0, 0.0, last.call.driver).skill_call
+        pace, until = STILL * self.termination.pace, self.measured.time + STOPS * brain.robot.height**0.5
+        while self.measured.time < until and self.measured.is_finite():
+            sensed = self.measured
+            target, gait = brain.coordinator.move(memories.gait, call, sensed, self.mind.ground)
+            if target.stance.all() and np.hypot(*sensed.velocity_w[:2]) < pace:
+                return
+            told, control = brain.controller(call.driver).command(
+                target, sensed, memories.control, call, self.mind.ground
+            )
+            memories = memories._replace(gait=gait, control=control)
+            yield last._replace(sensed=sensed, call=call, target=target, command=told, took=(0.0, 0.0))
+            self.measured = self.plant.step(told)
 
     def close(self) -> None:
         """Motors off; the run is over."""
@@ -200,12 +256,13 @@ def walk(  # noqa: PLR0913 - the door to everything; most calls name three of th
     vary: bool = True,
     scene: str = "",
     watch: Callable[[Lap], None] | None = None,
+    lowers: bool = False,
 ) -> Recording:
     """Takes a robot through a mission; an interrupt (Ctrl-C) keeps what was recorded.
 
-    `watch`, where given, is called with every lap.
+    `watch`, where given, is called with every lap; `lowers`: whether the robot is let down at the end.
     """
-    return record(Session(brain, plant, mission, seconds, seed, vary), seed, scene, watch)
+    return record(Session(brain, plant, mission, seconds, seed, vary, lowers), seed, scene, watch)
 
 
 def record(
@@ -223,4 +280,22 @@ def record(
     except (KeyboardInterrupt, SystemError) as error:
         if not is_interrupt(error):
             raise
+    recorder.end_trip()
+    keep_lowering(session, recorder)
     return recorder.finish()
+
+
+def keep_lowering(session: Session, recorder: Recorder) -> None:
+    """Lets the robot down and keeps that; another interrupt, or a full disk, ends it."""
+    laps = session.lower()
+    try:
+        for lap in laps:
+            recorder.add(lap)
+    except NoRoom:
+        pass
+    except (KeyboardInterrupt, SystemError) as error:
+        if not is_interrupt(error):
+            raise
+    finally:
+        laps.close()
+        session.close()
