@@ -21,8 +21,8 @@ from gaitwright.perception.known_ground import KnownGround
 from gaitwright.record.recording import Recorder, Recording
 from gaitwright.record.scene_of import scene_for, scene_scale  # noqa: F401 - found here by all who set up runs
 from gaitwright.signals import LIES_DOWN, Measured, Mission
-from gaitwright.stages import Plant, SimulatedPlant
 from gaitwright.skills.chooser import fixed_skill
+from gaitwright.stages import Plant, SimulatedPlant
 from gaitwright.termination import STILL, Ending, Termination
 
 DT = 0.002
@@ -86,7 +86,9 @@ class Session:
         vary: bool = True,
         lowers: bool = False,
     ) -> None:
-        self.lowers = lowers and getattr(plant, "has_mechanics", True)
+        if not getattr(plant, "has_mechanics", True):
+            brain, lowers = replace(brain, watch=None), False
+        self.lowers = lowers
         self.brain, self.plant = brain, plant
         self.measured: Measured = plant.reset(seed, vary)
         phase = float(np.random.default_rng([seed, 1]).uniform()) if vary else 0.0
@@ -117,6 +119,8 @@ class Session:
         else:
             lap, self.mind = think(self.brain, self.mind, self.measured)
             ending = self.termination.judge(lap.sensed, lap.route, lap.call, lap.target, lap.command)
+            if lap.faults and lap.faults[-1].answer == LIES_DOWN and not (ending and ending.fell):
+                ending = Ending(lap.faults[-1].sentence)
             self.lap = ended(lap, ending) if ending else lap
         if not self.is_over:
             self.push_if_due(self.lap)
