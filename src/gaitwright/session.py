@@ -119,7 +119,7 @@ class Session:
         else:
             lap, self.mind = think(self.brain, self.mind, self.measured)
             ending = self.termination.judge(lap.sensed, lap.route, lap.call, lap.target, lap.command)
-            if lap.faults and lap.faults[-1].answer == LIES_DOWN and not (ending and ending.fell):
+            if lies_down(lap) and not (ending and ending.fell):
                 ending = Ending(lap.faults[-1].sentence)
             self.lap = ended(lap, ending) if ending else lap
         if not self.is_over:
@@ -149,13 +149,13 @@ class Session:
         """The laps of `lower`; a state that is no number ends them."""
         if self.pushing_until is not None:
             self.simulated().push((0.0, 0.0, 0.0))
-        broken = any(fault.answer == LIES_DOWN for fault in last.faults)
-        for lap in () if broken else self.stopping(last):
+        for lap in () if lies_down(last) else self.stopping(last):
             yield (last := lap)
+        broken = lies_down(last)
         way = Lowering(self.brain.robot, self.plant.dt, self.measured, last.command, limp=broken)
         call, begun = replace(last.call, skill="lie-down"), self.measured.time
-        while (after := self.measured.time - begun) < way.lasts and self.measured.is_finite():
-            told = way.command(after)
+        while (passed := self.measured.time - begun) < way.lasts and self.measured.is_finite():
+            told = way.command(passed)
             given = way.given(told, self.measured)
             yield last._replace(sensed=self.measured, call=call, command=given, took=(0.0, 0.0))
             self.measured = self.plant.step(told)
@@ -171,20 +171,17 @@ class Session:
 
     def stopping(self, last: Lap) -> Iterator[Lap]:
         """The laps in which a robot that still moves comes to stand on all its feet."""
-        brain, memories = self.brain, self.mind.memories
-        call = fixed_skill(brain.robot, "stand", 0.0, 0.0, 0.0, last.call.driver).skill_call
-        pace, until = STILL * self.termination.pace, self.measured.time + STOPS * brain.robot.height**0.5
+        stand = fixed_skill(self.brain.robot, "stand", 0.0, 0.0, 0.0, last.call.driver)
+        brain, mind = replace(self.brain, chooser=stand), self.mind._replace(chosen_at=-math.inf)
+        pace = STILL * self.termination.pace
+        until = self.measured.time + STOPS * brain.robot.height**0.5
         while self.measured.time < until and self.measured.is_finite():
-            sensed = self.measured
-            target, gait = brain.coordinator.move(memories.gait, call, sensed, self.mind.ground)
-            if target.stance.all() and np.hypot(*sensed.velocity_w[:2]) < pace:
+            lap, mind = think(brain, mind, self.measured)
+            yield after(last, lap)
+            slow = np.hypot(*lap.sensed.velocity_w[:2]) < pace
+            if (lap.target.stance.all() and slow) or lies_down(lap):
                 return
-            told, control = brain.controller(call.driver).command(
-                target, sensed, memories.control, call, self.mind.ground
-            )
-            memories = memories._replace(gait=gait, control=control)
-            yield last._replace(sensed=sensed, call=call, target=target, command=told, took=(0.0, 0.0))
-            self.measured = self.plant.step(told)
+            self.measured = self.plant.step(lap.command)
 
     def close(self) -> None:
         """Motors off; the run is over."""
@@ -244,6 +241,18 @@ class Session:
         if not isinstance(self.plant, SimulatedPlant):
             raise WrongUse(f"a {type(self.plant).__name__} is no simulation: nothing can be pushed or moved")
         return self.plant
+
+
+def lies_down(lap: Lap) -> bool:
+    """Whether something is broken that nobody can walk with."""
+    return bool(lap.faults) and lap.faults[-1].answer == LIES_DOWN
+
+
+def after(last: Lap, lap: Lap) -> Lap:
+    """A lap that comes after the last one of a trip: it ended as that one says."""
+    return lap._replace(
+        stopped_because=last.stopped_because, arrived=last.arrived, fell=last.fell, took=(0.0, 0.0)
+    )
 
 
 def ended(lap: Lap, ending: Ending) -> Lap:

@@ -11,7 +11,7 @@ GROUPS = {
     "skills": ("skills", "transitions", "terrain", "anyrobot", "cost"),
     "mechanics": ("dynamics", "sharing", "streaming", "armstrong"),
     "rules": ("rules", "school", "kills"),
-    "strangers": ("fuzz",),
+    "strangers": ("fuzz", "faults"),
 }
 """Groups of claims, each claim the name of a module here, in the order in which they are measured."""
 

@@ -1,8 +1,8 @@
-"""Which force at each foot the torques of a leg stand for, as the leg moves: J⁻ᵀ (τ needed for the motion − τ).
+"""Which force at each foot a leg's torques stand for: J⁻ᵀ (τ needed for its motion − τ).
 
-The motion of a leg is known, its inertia too: what its torques do beyond moving it, they do on the ground. That
-is compared with what the foot feels and with what moves the whole robot. The same comes out per motor: by how
-much the force changes where that motor gives nothing.
+The motion of a leg is known, its inertia too: what its torques do beyond moving it, they do on the ground.
+That is compared with what the foot feels and with what moves the whole robot. The same comes out per motor: by
+how much the force changes where that motor gives nothing.
 """
 
 import math
@@ -14,7 +14,6 @@ from gaitwright.model.leg import (
     foot_and_columns,
     hinge_axes,
     least_volume,
-    leg_at,
     leg_turns,
 )
 from gaitwright.numerics.compiled import kernel
@@ -28,9 +27,8 @@ LOAD = 15
 
 
 @kernel
-def per_torque(leg, columns):
-    """Force on the ground, base axes, per torque of each of the three joints [1/m]; bounded where singular."""
-    c1, c2, c3 = columns
+def per_torque(leg, c1, c2, c3):
+    """Force on the ground, base axes, per torque of each joint [1/m]; bounded where singular."""
     n1 = cross(c2, c3)
     volume, least = dot(c1, n1), least_volume(c1, c2, c3)
     if abs(volume) < least:
@@ -44,44 +42,57 @@ def per_torque(leg, columns):
 
 
 @kernel
-def leg_forces(packed, settings, k, a, b, motion, told, memory, share, need):
+def leg_forces(leg, settings, k, q, rates, new, motion, told, load, share, mean, now, need):
     """Brings the means of leg `k` one tick on; its wrench on the base less that of its force on the ground.
 
-    `motion`: angular velocity and acceleration of the base, acceleration less gravity of its origin, its
-    velocity and the ground's normal, all base axes; `told`: the leg's torques; `share`: of a new value in a
-    mean. Writes the torques that the motion needs into `need`.
+    `q`, `rates`, `new`: its angles and rates a tick ago, and its rates now; `motion`: angular velocity and
+    acceleration of the base, acceleration less gravity of its origin, its velocity and the ground's normal,
+    all base axes; `told`: the leg's torques; `load`: felt by the foot; `share`: of a new value in a mean.
+    Writes the torques that the motion needs into `need`; hands back the load by torques, too.
     """
     w, wd, pull, velocity, up = motion
-    damping, friction, _, _, _, dt = settings
-    leg = leg_at(packed, k)
-    turns, rates, new = leg_turns(a.q[k], leg.sign), vec(a.qd[k]), vec(b.qd[k])
+    damping, friction, dt = settings.damping, settings.friction, settings.dt
+    turns = leg_turns(q, leg.sign)
     qdd = scale(1.0 / dt, sub(new, rates))
     links = links_motion(leg, turns, w, wd, pull, rates, qdd)
     force, moment, tau = leg_load(turns, qdd, leg, links, NO_LOAD)
-    for j in range(3):
-        dry = friction[k, j] * new[j] / (abs(new[j]) + SLIDES)
-        need[j] = tau[j] + damping[k, j] * new[j] + dry
+    need[0] = tau[0] + resistance(damping[k, 0], friction[k, 0], new[0])
+    need[1] = tau[1] + resistance(damping[k, 1], friction[k, 1], new[1])
+    need[2] = tau[2] + resistance(damping[k, 2], friction[k, 2], new[2])
     foot, c1, c2, c3 = foot_and_columns(turns, leg.offset, leg.sign)
     below = scale(-leg.foot_radius, apply_t(leg.frame, up))
     x1, x2, x3 = hinge_axes(turns, leg.sign)
-    columns = (add(c1, cross(x1, below)), add(c2, cross(x2, below)), add(c3, cross(x3, below)))
-    units = per_torque(leg, columns)
-    ground = (0.0, 0.0, 0.0)
-    for j in range(3):
-        ground = add(ground, scale(need[j] - told[j], units[j]))
+    c1, c2, c3 = add(c1, cross(x1, below)), add(c2, cross(x2, below)), add(c3, cross(x3, below))
+    u1, u2, u3 = per_torque(leg, c1, c2, c3)
+    ground = add(scale(need[0] - told[0], u1), scale(need[1] - told[1], u2))
+    ground = add(ground, scale(need[2] - told[2], u3))
     at = add(leg.hip, apply(leg.frame, add(foot, below)))
-    slides = add(add(apply(leg.frame, combined(rates, columns)), cross(w, at)), velocity)
-    mean, now = memory.mean[k], memory.now[k]
-    for x in range(3):
-        mean[x] += share * (ground[x] - mean[x])
-        mean[3 + x] += share * (slides[x] - mean[3 + x])
-        for j in range(3):
-            mean[6 + 3 * j + x] += share * (told[j] * units[j][x] - mean[6 + 3 * j + x])
-            now[3 * j + x] = units[j][x]
-    mean[LOAD] += share * (b.load[k] - mean[LOAD])
+    slides = add(add(apply(leg.frame, combined(rates, (c1, c2, c3))), cross(w, at)), velocity)
+    approach(mean, 0, ground, share)
+    approach(mean, 3, slides, share)
+    approach(mean, 6, scale(told[0], u1), share)
+    approach(mean, 9, scale(told[1], u2), share)
+    approach(mean, 12, scale(told[2], u3), share)
+    mean[LOAD] += share * (load - mean[LOAD])
+    write(now, 0, u1)
+    write(now, 3, u2)
+    write(now, 6, u3)
     write(now, 9, at)
-    memory.believed[k] += 0.5 * (max(dot(ground, up), 0.0) - memory.believed[k])
-    return sub(force, ground), sub(moment, cross(at, ground))
+    return sub(force, ground), sub(moment, cross(at, ground)), max(dot(ground, up), 0.0)
+
+
+@kernel
+def resistance(damping, friction, rate):
+    """Torque that a joint's damping and dry friction take [N·m]."""
+    return damping * rate + friction * rate / (abs(rate) + SLIDES)
+
+
+@kernel
+def approach(mean, at, value, share):
+    """Brings three means towards a new value."""
+    mean[at] += share * (value[0] - mean[at])
+    mean[at + 1] += share * (value[1] - mean[at + 1])
+    mean[at + 2] += share * (value[2] - mean[at + 2])
 
 
 @kernel

@@ -41,7 +41,7 @@ def distance(told, place, need):
 
 @kernel
 def compare(late, k, place, need, scale):
-    """Compares the torques that a swinging leg needs with those it was told, and with earlier ones if need be.
+    """Compares the torques that a swinging leg needs with those it was told, if need be with earlier ones.
 
     `scale`: weight times height.
     """

@@ -7,12 +7,12 @@ takes it. Everything else is told by forces (`suspicion`).
 import math
 
 from gaitwright.numerics.compiled import kernel
-from gaitwright.numerics.geometry import between, dot, rotation_vector, scale, sub, times_t, vec
+from gaitwright.numerics.geometry import add, cross, dot, scale, sub, vec
 
 FROZEN_FOR = 50
 """So many equal readings of everything are no stall any more [ticks]."""
 STALL = 8
-"""A stall this long makes the readings that follow too late, where they go on as if nothing had been [ticks]."""
+"""After a stall this long readings that go on as if nothing had been are too late [ticks]."""
 REPEATS = 25
 """So many equal readings of one sensor, while others turned by `STIRS`, are no chance [ticks]."""
 STIRS = 0.05
@@ -25,6 +25,8 @@ MEAN = 0.02
 """And must stay for about this time, which a single bad reading does not [s]."""
 JUMPED, TURNED = 0.06, 0.08
 """So far a joint, or the body, does not get without a rate [rad]."""
+CALM = 0.03
+"""Rates are averaged over this time [s]."""
 SLOW = 0.5
 """A joint slower than this may be stuck [rad/s]."""
 
@@ -35,7 +37,7 @@ STEADY, REPEAT_ALL, LATE_NOW, REPEAT_BODY, TURNED_BODY, REPEAT_JOINT, JUMPED_JOI
 @kernel
 def is_same(one, other):
     """Whether two rows of numbers are equal bit for bit."""
-    for i in range(one.size):
+    for i in range(one.size):  # noqa: SIM110 - a kernel
         if one[i] != other[i]:
             return False
     return True
@@ -66,11 +68,8 @@ def check_all(memory, a, b, dt):
 
 
 @kernel
-def check_body(memory, a, b, before, after, dt):
-    """Whether attitude and rates of the body repeat while joints turn, or the attitude turns by itself.
-
-    `before`, `after`: rotations of the base.
-    """
+def check_body(memory, a, b, dt):
+    """Whether attitude and rates of the body repeat while joints turn, or the attitude turns by itself."""
     if is_same(a.orientation_wb, b.orientation_wb) and is_same(a.angular_velocity_b, b.angular_velocity_b):
         memory.same[1] += 1.0
         for k in range(b.q.shape[0]):
@@ -80,13 +79,9 @@ def check_body(memory, a, b, before, after, dt):
             return REPEAT_BODY
     else:
         memory.same[1] = memory.stirred[0] = 0.0
-    turn = times_t(before, rotation_vector(between(before, after)))
-    rate = scale(0.5 * dt, (
-        a.angular_velocity_b[0] + b.angular_velocity_b[0],
-        a.angular_velocity_b[1] + b.angular_velocity_b[1],
-        a.angular_velocity_b[2] + b.angular_velocity_b[2],
-    ))  # fmt: skip
-    more, total = sub(turn, rate), 0.0
+    turn, rate = turned(a.orientation_wb, b.orientation_wb), vec(b.angular_velocity_b)
+    more = sub(turn, scale(0.5 * dt, add(vec(a.angular_velocity_b), rate)))
+    total = 0.0
     for x in range(3):
         memory.turned[x] += more[x] - dt / LEAK * memory.turned[x]
         memory.turned[3 + x] += dt / MEAN * (memory.turned[x] - memory.turned[3 + x])
@@ -95,31 +90,46 @@ def check_body(memory, a, b, before, after, dt):
 
 
 @kernel
-def check_joint(memory, a, b, k, j, dt):
-    """Whether an angle repeats while the leg's other joints turn, or goes where no rate leads."""
-    off = b.q[k, j] - a.q[k, j]
-    if off == 0.0:
-        memory.same_joint[k, j] += 1.0
-        for other in range(3):
-            memory.others[k, j] += abs(b.q[k, other] - a.q[k, other])
-        if memory.same_joint[k, j] > REPEATS and memory.others[k, j] > STIRS:
-            return REPEAT_JOINT
-    else:
-        memory.same_joint[k, j] = memory.others[k, j] = 0.0
-    one, other = dt * a.qd[k, j], dt * b.qd[k, j]
-    more = off - min(max(off, min(one, other)), max(one, other))
-    memory.drift[k, j] += more - dt / LEAK * memory.drift[k, j]
-    memory.drift_mean[k, j] += dt / MEAN * (memory.drift[k, j] - memory.drift_mean[k, j])
-    size = abs(b.qd[k, j])
-    memory.calm[k, j] += dt / 0.03 * (size - memory.calm[k, j])
-    memory.still[k, j] = memory.still[k, j] + dt if size < SLOW else 0.0
-    return JUMPED_JOINT if abs(memory.drift_mean[k, j]) > JUMPED else STEADY
+def turned(before, after):
+    """The small turn from one quaternion to the next, axis times angle, base axes [rad]."""
+    w, v = before[0], (before[1], before[2], before[3])
+    w_new, v_new = after[0], (after[1], after[2], after[3])
+    side = math.copysign(2.0, w * w_new + dot(v, v_new))
+    return scale(side, sub(sub(scale(w, v_new), scale(w_new, v)), cross(v, v_new)))
 
 
 @kernel
-def repeats(memory, k):
+def check_joints(memory, a, b, dt):
+    """Whether an angle repeats while the leg's other joints turn, or goes where no rate leads; of which joint."""
+    same, others, drift, mean = memory.same_joint, memory.others, memory.drift, memory.drift_mean
+    calm, still, q, before = memory.calm, memory.still, b.q, a.q
+    rate, rate_before = b.qd, a.qd
+    for k in range(q.shape[0]):
+        stirs = abs(q[k, 0] - before[k, 0]) + abs(q[k, 1] - before[k, 1]) + abs(q[k, 2] - before[k, 2])
+        for j in range(3):
+            off = q[k, j] - before[k, j]
+            if off == 0.0:
+                same[k, j] += 1.0
+                others[k, j] += stirs
+                if same[k, j] > REPEATS and others[k, j] > STIRS:
+                    return REPEAT_JOINT, k, j
+            else:
+                same[k, j] = others[k, j] = 0.0
+            one, other = dt * rate_before[k, j], dt * rate[k, j]
+            more = off - min(max(off, min(one, other)), max(one, other))
+            drift[k, j] += more - dt / LEAK * drift[k, j]
+            mean[k, j] += dt / MEAN * (drift[k, j] - mean[k, j])
+            if abs(mean[k, j]) > JUMPED:
+                return JUMPED_JOINT, k, j
+            size = abs(rate[k, j])
+            calm[k, j] += dt / CALM * (size - calm[k, j])
+            still[k, j] = still[k, j] + dt if size < SLOW else 0.0
+    return STEADY, -1, -1
+
+
+@kernel
+def repeats(same, k):
     """Whether a joint of a leg repeats its angle: then nothing is concluded from its motion."""
-    same = memory.same_joint
     return same[k, 0] > 2.0 or same[k, 1] > 2.0 or same[k, 2] > 2.0
 
 

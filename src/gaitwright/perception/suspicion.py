@@ -76,7 +76,7 @@ def change_of(h, foot, now, up, weight):
 
 @kernel
 def sensor_misfit(foot, up, weight, pace):
-    """What does not fit of a force without regard to what the foot feels: feet that carry do not slide [N]."""
+    """What does not fit of a force, whatever the foot feels: feet that carry do not slide [N]."""
     force = vec(foot)
     normal = max(dot(force, up), 0.0)
     slides = max(length(vec(foot[3:])) / pace - 0.02, 0.0)
@@ -109,12 +109,8 @@ def price_of(h, readings, k):
 
 
 @kernel
-def judge_leg(forces, readings, k, up, lack, gap, weight, height, pace, margin, now, dt):
-    """Brings the suspicions of leg `k` one tick on. `gap`: how far the balance is from usual, in weights."""
-    foot = forces.mean[k]
-    healthy = misfit(vec(foot), up, foot[LOAD]) / weight + gap
-    if healthy < margin and forces.worst[k] <= 0.0:
-        return
+def judge_leg(forces, readings, k, up, lack, healthy, weight, height, pace, margin, now, dt):
+    """Brings the suspicions of leg `k` one tick on. `healthy`: what does not fit if it is in order."""
     suspicion, worst = forces.suspicion[k], 0.0
     for h in range(HYPOTHESES):
         miss = miss_of(h, forces, readings, k, up, lack, weight, height, pace)

@@ -1,7 +1,7 @@
-"""Sensed + what was told last → what of it is believed, and what is broken: by kinematics, torques and load.
+"""Sensed + what was told last → what is believed, and what is broken: by kinematics, torques and load.
 
-While everything fits, what is sensed is believed as it is, to the bit. A foot's sensor that lies is done without:
-the load of that foot is then what the leg's torques stand for. Everything else ends the trip.
+While everything fits, what is sensed is believed as it is, to the bit. A foot's sensor that lies is done
+without: the load of that foot is then what the leg's torques stand for. Everything else ends the trip.
 """
 
 from dataclasses import dataclass
@@ -11,13 +11,15 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
+from gaitwright.model.leg import leg_at
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import GRAVITY, add, rotation, scale, vec
+from gaitwright.numerics.matrices import row as row_of
 from gaitwright.numerics.packing import Layout, Row
 from gaitwright.numerics.parts import part
 from gaitwright.perception.fault_words import FOOT_FAULTS, fault_of
-from gaitwright.perception.foot_forces import balance, base_motion, base_pull, leg_forces
+from gaitwright.perception.foot_forces import LOAD, balance, base_motion, base_pull, leg_forces
 from gaitwright.perception.lateness import compare, new_lag, remember
 from gaitwright.perception.readings import (
     REPEAT_ALL,
@@ -26,7 +28,7 @@ from gaitwright.perception.readings import (
     STEADY,
     check_all,
     check_body,
-    check_joint,
+    check_joints,
     repeats,
     spin,
 )
@@ -36,6 +38,7 @@ from gaitwright.perception.suspicion import (
     PER_NOISE,
     forget,
     judge_leg,
+    misfit,
     verdict,
 )
 from gaitwright.perception.watch_memory import DEAD_LEG, SENSOR, STUCK, size_of, tables
@@ -48,7 +51,7 @@ BEGINS = 60
 DARK = 0.12
 """Nor for so long after readings stalled [s]."""
 BEARABLE = 0.095
-"""Readings as late as this can be walked with, over √(h/g): go2 falls from 10 ticks of 2 ms on, and not at 8."""
+"""Readings this late can be walked with, over √(h/g): go2 falls from 10 ticks of 2 ms on, and not at 8."""
 LEAST_LOAD = 0.04
 """A foot that carries less than this by torques, in weights, is taken to be in the air."""
 
@@ -97,10 +100,10 @@ def look(constants, was, now, pull, asked, told, row):
         late.dark[0] = DARK
         return NOTHING, -1, -1, 0.0
     late.dark[0] = max(0.0, late.dark[0] - dt)
-    before = rotation(a.orientation_wb)
-    found, leg, joint = check_sensors(readings, a, b, before, dt)
+    found, leg, joint = check_sensors(readings, a, b, dt)
     if found != NOTHING:
         return found, leg, joint, t - dt * (readings.same[1] if leg < 0 else readings.same_joint[leg, joint])
+    before = rotation(a.orientation_wb)
     motion = base_motion(a, spin(a, b, dt), pull, before, vec(normal_of(asked)))
     gap = weigh(packed, settings, a, b, motion, place, forces, late)
     lag = new_lag(late, dt)
@@ -114,17 +117,17 @@ def look(constants, was, now, pull, asked, told, row):
 
 
 @kernel
-def check_sensors(readings, a, b, before, dt):
+def check_sensors(readings, a, b, dt):
     """What the readings show by themselves: (what is found, leg, joint)."""
-    found = check_body(readings, a, b, before, rotation(b.orientation_wb), dt)
+    found = check_body(readings, a, b, dt)
     if found != STEADY:
         return (IMU_FROZEN if found == REPEAT_BODY else IMU_TILTED), -1, -1
-    for k in range(b.load.size):
-        readings.same_load[k] = readings.same_load[k] + 1.0 if b.load[k] == a.load[k] else 0.0
-        for j in range(3):
-            found = check_joint(readings, a, b, k, j, dt)
-            if found != STEADY:
-                return (ENCODER_FROZEN if found == REPEAT_JOINT else ENCODER_OFFSET), k, j
+    same, load, before = readings.same_load, b.load, a.load
+    for k in range(load.size):
+        same[k] = same[k] + 1.0 if load[k] == before[k] else 0.0
+    found, leg, joint = check_joints(readings, a, b, dt)
+    if found != STEADY:
+        return (ENCODER_FROZEN if found == REPEAT_JOINT else ENCODER_OFFSET), leg, joint
     return NOTHING, -1, -1
 
 
@@ -135,11 +138,35 @@ def weigh(packed, settings, a, b, motion, place, forces, late):
     force, moment = base_pull(packed, motion[0], motion[1], motion[2])
     need = np.empty(3)
     at = 3 * ((place - lag) % (late.told.shape[1] // 3))
-    for k in range(b.load.size):
-        told = vec(late.told[k, at:])
-        f, m = leg_forces(packed, settings, k, a, b, motion, told, forces, share, need)
+    q, rates, new, load, felt = a.q, a.qd, b.qd, b.load, a.load
+    mean, numbers, believed, ring, trusted = (
+        forces.mean,
+        forces.now,
+        forces.believed,
+        late.told,
+        forces.distrusted,
+    )
+    for k in range(load.size):
+        told = (ring[k, at], ring[k, at + 1], ring[k, at + 2])
+        leg, was, new_rates = leg_at(packed, k), row_of(rates, k), row_of(new, k)
+        f, m, carried = leg_forces(
+            leg,
+            settings,
+            k,
+            row_of(q, k),
+            was,
+            new_rates,
+            motion,
+            told,
+            load[k],
+            share,
+            mean[k],
+            numbers[k],
+            need,
+        )
+        believed[k] += 0.5 * (carried - believed[k])
         force, moment = add(force, f), add(moment, m)
-        if b.load[k] == 0.0 and a.load[k] == 0.0 and forces.distrusted[k] == 0.0:
+        if load[k] == 0.0 and felt[k] == 0.0 and trusted[k] == 0.0:
             compare(late, k, place, need, settings.weight * settings.height)
     calm = forces.worst.max() <= 0.0
     return balance(forces, force, moment, settings.weight, settings.height, share, settings.dt, calm)
@@ -148,7 +175,7 @@ def weigh(packed, settings, a, b, motion, place, forces, late):
 @kernel
 def judge(settings, forces, readings, b, up, gap, blind, t):
     """What is certain of some leg, as `look` returns it."""
-    _, _, weight, height, pace, dt = settings
+    weight, height, pace, dt = settings.weight, settings.height, settings.pace, settings.dt
     margin = MARGIN + PER_NOISE * forces.noise[0]
     lack = (
         scale(weight, (forces.lack[0] - forces.usual[0], forces.lack[1] - forces.usual[1],
@@ -156,13 +183,16 @@ def judge(settings, forces, readings, b, up, gap, blind, t):
         scale(weight * height, (forces.lack[3] - forces.usual[3], forces.lack[4] - forces.usual[4],
                                 forces.lack[5] - forces.usual[5])),
     )  # fmt: skip
+    mean, worst, same, distrusted = forces.mean, forces.worst, readings.same_joint, forces.distrusted
     for k in range(b.load.size):
-        if forces.distrusted[k] > 0.0:
+        foot = mean[k]
+        healthy = misfit(vec(foot), up, foot[LOAD]) / weight + gap
+        if distrusted[k] > 0.0 or (healthy < margin and worst[k] <= 0.0):
             continue
-        if blind or repeats(readings, k):
+        if blind or repeats(same, k):
             forget(forces, k)
             continue
-        judge_leg(forces, readings, k, up, lack, gap, weight, height, pace, margin, t, dt)
+        judge_leg(forces, readings, k, up, lack, healthy, weight, height, pace, margin, t, dt)
         h = verdict(forces, k, dt)
         if h < 0:
             continue
@@ -216,8 +246,8 @@ class Watch:
         if memory is None:
             return sensed, WatchMemory(np.zeros(size_of(self.robot.n)), now)
         over = bool(memory.faults) and memory.faults[-1].answer == LIES_DOWN
-        if over or memory.told is None or not measured.is_finite():
-            return sensed, memory._replace(seen=now)
+        if over or memory.told is None:
+            return sensed, memory
         row, faults = memory.row.copy(), memory.faults
         kind, leg, joint, since = look(
             self.constants, memory.seen, now, measured.specific_force_b, memory.asked, memory.told, row
@@ -229,13 +259,15 @@ class Watch:
             sensed = self.believed(sensed, row, faults)
         return sensed, WatchMemory(row, now, faults)
 
-    def heard(self, memory: WatchMemory, target: MotionTarget, command: MotorCommand, sensed: Sensed):
+    def heard(
+        self, memory: WatchMemory, target: MotionTarget, command: MotorCommand, sensed: Sensed
+    ) -> WatchMemory:
         """The memory with what was asked and told in this tick."""
         told = command.row
         if command.kp is not None or command.kd is not None:
             tau = command.torques(sensed.q, sensed.qd)
             told = np.clip(tau, -self.robot.tau_max, self.robot.tau_max).ravel()
-        return memory._replace(asked=target.row, told=told)
+        return WatchMemory(memory.row, memory.seen, memory.faults, target.row, told)
 
     def believed(self, sensed: Sensed, row: Row, faults: tuple[Fault, ...]) -> Sensed:
         """What is sensed, with the load by torques where a foot's sensor lies."""

@@ -28,6 +28,8 @@ LATE = 20
 """Ticks by which readings are late."""
 HELD = (0.1, 0.5)
 """Stiffness and damping that hold a stuck joint, as shares of what a tick can bear, I / dt² and I / dt."""
+SHOWS = 0.05
+"""A breakdown shows where torques, or loads, are off by this share of the limit, or of the weight."""
 WHERE = Sensed.layout
 
 
@@ -105,6 +107,8 @@ class FaultyPlant:
         self.breakdowns = tuple(breakdowns)
         self.imperfections = imperfections or Imperfections()
         self.truth = self.told = plant.reset(0, vary=False)
+        self.asked: MotorCommand | None = None
+        """The last command."""
         self.begin(0)
 
     def begin(self, seed: int) -> None:
@@ -116,6 +120,8 @@ class FaultyPlant:
         self.tilt = self.imperfections.attitude_bias * np.array([np.cos(towards), np.sin(towards)])
         self.old: deque[Measured] = deque(maxlen=1 + max(LATE, self.imperfections.late))
         self.late, self.kept = self.imperfections.late, {}
+        self.shown: dict[Breakdown, float] = {}
+        """When a breakdown first made a difference worth speaking of [s]."""
 
     def reset(self, seed: int = 0, vary: bool = True) -> Measured:
         """The robot at its start, as its sensors have it."""
@@ -125,10 +131,13 @@ class FaultyPlant:
 
     def step(self, command: MotorCommand) -> Measured:
         """One control period under what the motors make of a command."""
-        now = self.truth.time
+        now, self.asked = self.truth.time, command
         due = [one for one in self.breakdowns if now >= one.at - 1e-9]
         for one in due:
-            command = self.driven(command, one)
+            broken = self.driven(command, one)
+            if one not in self.shown and self.differ(command, broken):
+                self.shown[one] = now
+            command = broken
         self.truth = self.plant.step(command)
         return self.read()
 
@@ -162,13 +171,26 @@ class FaultyPlant:
         gains["kd"][where] = HELD[1] * inertia / self.dt
         return replace(command, **gains)
 
+    def differ(self, told: MotorCommand, given: MotorCommand) -> bool:
+        """Whether motors give torques that are clearly others than they were told."""
+        if told is given:
+            return False
+        at = self.truth.q, self.truth.qd
+        limit = self.robot.tau_max
+        both = [np.clip(command.torques(*at), -limit, limit) for command in (told, given)]
+        return bool((np.abs(both[1] - both[0]) > SHOWS * limit).any())
+
     # --- sensors -------------------------------------------------------------------------------------
     def read(self) -> Measured:
         """What the sensors make of the truth."""
         now, told = self.truth.time, self.noisy(self.truth)
         due = [one for one in self.breakdowns if now >= one.at - 1e-9]
         for one in due:
-            told = self.misread(told, one)
+            wrong = self.misread(told, one)
+            off = np.abs(wrong.load - told.load).max() > SHOWS * self.robot.total_mass * GRAVITY
+            if one not in self.shown and (off or (one.kind not in OF_A_LEG and wrong is not told)):
+                self.shown[one] = now
+            told = wrong
         most = max([LATE if one.kind == "late" else 0 for one in due] + [self.imperfections.late])
         self.late = min(most, self.late + 1)  # a stream that stalls, then goes on as late as that
         self.old.append(told)
@@ -212,6 +234,8 @@ class FaultyPlant:
             return frozen_body(told, self.kept.setdefault(one, told))
         if one.kind == "imu-tilted":
             return changed(told, orientation_wb=tilted(told.orientation_wb, np.array([OFFSET, 0.0])))
+        if one.kind == "late":
+            self.shown.setdefault(one, told.time)
         return told
 
 
