@@ -19,10 +19,10 @@ from gaitwright.ground.scene import Scene
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.model.robot import Robot
 from gaitwright.navigation.navigator import Navigator
+from gaitwright.perception.fault_words import Fault
 from gaitwright.perception.known_ground import KnownGround
 from gaitwright.perception.watch import Watch, WatchMemory
 from gaitwright.signals import (
-    Fault,
     Gait,
     GroundMap,
     Measured,

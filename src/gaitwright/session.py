@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gaitwright.control.lowering import Lowering
 from gaitwright.control.numerical import idle
+from gaitwright.descent import can_descend, descent, lies_down
 from gaitwright.errors import NoRoom, WrongUse, is_interrupt
 from gaitwright.ground.scene import Scene
 from gaitwright.locomotion import Brain, Lap, Mind, think
@@ -20,19 +20,14 @@ from gaitwright.numerics.geometry import heading, rotation
 from gaitwright.perception.known_ground import KnownGround
 from gaitwright.record.recording import Recorder, Recording
 from gaitwright.record.scene_of import scene_for, scene_scale  # noqa: F401 - found here by all who set up runs
-from gaitwright.signals import LIES_DOWN, Measured, Mission
-from gaitwright.skills.chooser import fixed_skill
+from gaitwright.signals import Measured, Mission
 from gaitwright.stages import Plant, SimulatedPlant
-from gaitwright.termination import STILL, Ending, Termination
+from gaitwright.termination import Ending, Termination
 
 DT = 0.002
 """Control period [s]: 500 Hz."""
 PUSH_LASTS = 0.1
 """How long a push lasts where nothing else is said [s]."""
-
-
-STOPS = 3.0
-"""After a trip a robot may take so long to come to a stand, times √(height / 1 m) [s]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +71,7 @@ class Session:
     `close`, the motors are off; where it `lowers`, they go on until `lower` has let the robot down.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - the door to a run
         self,
         brain: Brain,
         plant: Plant,
@@ -131,34 +126,20 @@ class Session:
 
     @property
     def can_lower(self) -> bool:
-        """Whether there is a robot on its feet that can be let down."""
-        lap = self.lap
-        if not self.lowers or self.closed or lap is None or lap.fell:
-            return False
-        return self.measured.is_finite() and bool(np.isfinite(lap.command.tau).all())
+        """Whether there is a robot that can be let down, and somebody to do it."""
+        return (
+            self.lowers and not self.closed and self.lap is not None and can_descend(self.lap, self.measured)
+        )
 
     def lower(self) -> Iterator[Lap]:
         """Lets the robot down after a trip that is over or cut off: laps of no trip, then motors off."""
         try:
+            if self.pushing_until is not None:
+                self.simulated().push((0.0, 0.0, 0.0))
             if self.can_lower and self.lap is not None:
-                yield from self.lowered(self.lap)
+                yield from descent(self.brain, self.plant, self.mind, self.lap, self.measured)
         finally:
             self.close()
-
-    def lowered(self, last: Lap) -> Iterator[Lap]:
-        """The laps of `lower`; a state that is no number ends them."""
-        if self.pushing_until is not None:
-            self.simulated().push((0.0, 0.0, 0.0))
-        for lap in () if lies_down(last) else self.stopping(last):
-            yield (last := lap)
-        broken = lies_down(last)
-        way = Lowering(self.brain.robot, self.plant.dt, self.measured, last.command, limp=broken)
-        call, begun = replace(last.call, skill="lie-down"), self.measured.time
-        while (passed := self.measured.time - begun) < way.lasts and self.measured.is_finite():
-            told = way.command(passed)
-            given = way.given(told, self.measured)
-            yield last._replace(sensed=self.measured, call=call, command=given, took=(0.0, 0.0))
-            self.measured = self.plant.step(told)
 
     def __iter__(self) -> Iterator[Lap]:
         """Laps until the run is over or paused; motors off however that comes about."""
@@ -168,20 +149,6 @@ class Session:
         finally:
             if not self.paused and not self.can_lower:
                 self.close()
-
-    def stopping(self, last: Lap) -> Iterator[Lap]:
-        """The laps in which a robot that still moves comes to stand on all its feet."""
-        stand = fixed_skill(self.brain.robot, "stand", 0.0, 0.0, 0.0, last.call.driver)
-        brain, mind = replace(self.brain, chooser=stand), self.mind._replace(chosen_at=-math.inf)
-        pace = STILL * self.termination.pace
-        until = self.measured.time + STOPS * brain.robot.height**0.5
-        while self.measured.time < until and self.measured.is_finite():
-            lap, mind = think(brain, mind, self.measured)
-            yield after(last, lap)
-            slow = np.hypot(*lap.sensed.velocity_w[:2]) < pace
-            if (lap.target.stance.all() and slow) or lies_down(lap):
-                return
-            self.measured = self.plant.step(lap.command)
 
     def close(self) -> None:
         """Motors off; the run is over."""
@@ -243,18 +210,6 @@ class Session:
         return self.plant
 
 
-def lies_down(lap: Lap) -> bool:
-    """Whether something is broken that nobody can walk with."""
-    return bool(lap.faults) and lap.faults[-1].answer == LIES_DOWN
-
-
-def after(last: Lap, lap: Lap) -> Lap:
-    """A lap that comes after the last one of a trip: it ended as that one says."""
-    return lap._replace(
-        stopped_because=last.stopped_because, arrived=last.arrived, fell=last.fell, took=(0.0, 0.0)
-    )
-
-
 def ended(lap: Lap, ending: Ending) -> Lap:
     """The last lap of a run."""
     return lap._replace(stopped_because=ending.because, arrived=ending.arrived, fell=ending.fell)
@@ -300,9 +255,8 @@ def record(
 
 def keep_lowering(session: Session, recorder: Recorder) -> None:
     """Lets the robot down and keeps that; another interrupt, or a full disk, ends it."""
-    laps = session.lower()
     try:
-        for lap in laps:
+        for lap in session.lower():
             recorder.add(lap)
     except NoRoom:
         pass
@@ -310,5 +264,4 @@ def keep_lowering(session: Session, recorder: Recorder) -> None:
         if not is_interrupt(error):
             raise
     finally:
-        laps.close()
         session.close()

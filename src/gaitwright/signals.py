@@ -66,29 +66,6 @@ class Measured(Sensed):
     """Acceleration of the base origin less gravity, base axes, mean over the last control period [m/s²]."""
 
 
-GOES_ON, LIES_DOWN = "goes on", "lies down"
-"""What a robot does about a fault."""
-
-
-@dataclass(frozen=True, slots=True)
-class Fault:
-    """What is noticed to be broken."""
-
-    kind: str
-    leg: str | None
-    """Name of the leg; `None` where it is not one leg's."""
-    joint: str | None
-    """hip1, hip2 or knee; `None` where it is not one joint's."""
-    since: float
-    """When it began to show [s]."""
-    noticed: float
-    """When it was certain [s]."""
-    sentence: str
-    """What is broken, as a sentence."""
-    answer: str
-    """`GOES_ON` where the robot can do without it, else `LIES_DOWN`."""
-
-
 @dataclass(frozen=True, slots=True)
 class Mission:
     """Where to go: way-points in order, the last one is the goal."""

@@ -107,8 +107,8 @@ def add_run(parser: argparse.ArgumentParser, seconds: float) -> None:
     broken = (
         "let something fail at time T, in seconds; may be given several times, e.g. motor-dead:FL:knee@2 or "
         f"frozen@2. Kinds: {listed(FAULTS)}. LEG is a leg of the robot, JOINT is {', '.join(JOINTS)}; "
-        "motors and joints name both, feet and whole legs a leg. A robot that notices says what is broken, and "
-        "lies down where it cannot go on (nothing fails)"
+        "motors and joints name both, feet and whole legs a leg. A robot that notices says what is broken, "
+        "and lies down where it cannot go on (nothing fails)"
     )
     parser.add_argument(
         "--fault", type=fault, action="append", default=[], metavar="KIND[:LEG[:JOINT]]@T", help=broken

@@ -1,8 +1,8 @@
 """After a trip: the legs fold until the body lies on the ground, then the motors go off.
 
-Joints are led from where they are to a crouch, as stiff as the servos of the drivers without dynamics, and then
-let go. Where something is broken nothing but a damper is left: it needs neither angles nor contacts, and the
-body sinks no faster than it lets the legs give way.
+Joints are led from where they are to a crouch, as stiff as the servos of the drivers without dynamics, and
+then let go. Where something is broken nothing but a damper is left: it needs neither angles nor contacts, and
+the body sinks no faster than it lets the legs give way.
 """
 
 import numpy as np

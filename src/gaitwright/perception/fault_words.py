@@ -1,8 +1,30 @@
 """What is found broken, by what a person calls it."""
 
-from gaitwright.model.robot import Robot
-from gaitwright.signals import GOES_ON, LIES_DOWN, Fault
+from dataclasses import dataclass
 
+from gaitwright.model.robot import Robot
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """What is noticed to be broken, and what the robot does about it."""
+
+    kind: str
+    leg: str | None
+    """Name of the leg; `None` where it is not that of one."""
+    joint: str | None
+    """hip1, hip2 or knee; `None` where it is not that of one."""
+    since: float
+    """When it began to show [s]."""
+    noticed: float
+    """When it was certain [s]."""
+    sentence: str
+    answer: str
+    """`GOES_ON` or `LIES_DOWN`."""
+
+
+GOES_ON, LIES_DOWN = "goes on", "lies down"
+"""What a robot does about a fault."""
 KINDS = (
     "",
     "motor-dead",

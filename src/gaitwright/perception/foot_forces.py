@@ -1,8 +1,8 @@
 """Which force at each foot a leg's torques stand for: J⁻ᵀ (τ needed for its motion − τ).
 
 The motion of a leg is known, its inertia too: what its torques do beyond moving it, they do on the ground.
-That is compared with what the foot feels and with what moves the whole robot. The same comes out per motor: by
-how much the force changes where that motor gives nothing.
+That is compared with what the foot feels and with what moves the whole robot. The same comes out per motor:
+by how much the force changes where that motor gives nothing.
 """
 
 import math

@@ -100,7 +100,7 @@ def turned(before, after):
 
 @kernel
 def check_joints(memory, a, b, dt):
-    """Whether an angle repeats while the leg's other joints turn, or goes where no rate leads; of which joint."""
+    """Whether an angle repeats while its leg turns, or goes where no rate leads; and of which joint."""
     same, others, drift, mean = memory.same_joint, memory.others, memory.drift, memory.drift_mean
     calm, still, q, before = memory.calm, memory.still, b.q, a.q
     rate, rate_before = b.qd, a.qd

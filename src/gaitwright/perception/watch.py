@@ -18,7 +18,7 @@ from gaitwright.numerics.geometry import GRAVITY, add, rotation, scale, vec
 from gaitwright.numerics.matrices import row as row_of
 from gaitwright.numerics.packing import Layout, Row
 from gaitwright.numerics.parts import part
-from gaitwright.perception.fault_words import FOOT_FAULTS, fault_of
+from gaitwright.perception.fault_words import FOOT_FAULTS, LIES_DOWN, Fault, fault_of
 from gaitwright.perception.foot_forces import LOAD, balance, base_motion, base_pull, leg_forces
 from gaitwright.perception.lateness import compare, new_lag, remember
 from gaitwright.perception.readings import (
@@ -42,7 +42,7 @@ from gaitwright.perception.suspicion import (
     verdict,
 )
 from gaitwright.perception.watch_memory import DEAD_LEG, SENSOR, STUCK, size_of, tables
-from gaitwright.signals import LIES_DOWN, Fault, Measured, MotionTarget, MotorCommand, Sensed
+from gaitwright.signals import Measured, MotionTarget, MotorCommand, Sensed
 
 FILTER = 0.02
 """Time over which forces are averaged [s]."""

@@ -28,8 +28,12 @@ LATE = 20
 """Ticks by which readings are late."""
 HELD = (0.1, 0.5)
 """Stiffness and damping that hold a stuck joint, as shares of what a tick can bear, I / dt² and I / dt."""
-SHOWS = 0.05
-"""A breakdown shows where torques, or loads, are off by this share of the limit, or of the weight."""
+SHOWS = (0.1, 0.05)
+"""A breakdown shows where a torque is off by this share of its limit, a load by this one of the weight."""
+SHOWN = 10
+"""For so many ticks."""
+OF_A_SENSOR = tuple(kind for kind in FAULTS if not kind.startswith(("motor", "leg")))
+"""Kinds that change what is read, not what is done."""
 WHERE = Sensed.layout
 
 
@@ -120,6 +124,7 @@ class FaultyPlant:
         self.tilt = self.imperfections.attitude_bias * np.array([np.cos(towards), np.sin(towards)])
         self.old: deque[Measured] = deque(maxlen=1 + max(LATE, self.imperfections.late))
         self.late, self.kept = self.imperfections.late, {}
+        self.differs: dict[Breakdown, int] = {}
         self.shown: dict[Breakdown, float] = {}
         """When a breakdown first made a difference worth speaking of [s]."""
 
@@ -135,8 +140,8 @@ class FaultyPlant:
         due = [one for one in self.breakdowns if now >= one.at - 1e-9]
         for one in due:
             broken = self.driven(command, one)
-            if one not in self.shown and self.differ(command, broken):
-                self.shown[one] = now
+            if one.kind not in OF_A_SENSOR:
+                self.count(one, now, self.differ(command, broken))
             command = broken
         self.truth = self.plant.step(command)
         return self.read()
@@ -171,6 +176,12 @@ class FaultyPlant:
         gains["kd"][where] = HELD[1] * inertia / self.dt
         return replace(command, **gains)
 
+    def count(self, one: Breakdown, now: float, differs: bool) -> None:
+        """Counts for how many ticks a breakdown has made a difference; `SHOWN` of them show it."""
+        self.differs[one] = self.differs.get(one, 0) + 1 if differs else 0
+        if self.differs[one] == SHOWN and one not in self.shown:
+            self.shown[one] = now - (SHOWN - 1) * self.dt
+
     def differ(self, told: MotorCommand, given: MotorCommand) -> bool:
         """Whether motors give torques that are clearly others than they were told."""
         if told is given:
@@ -178,7 +189,7 @@ class FaultyPlant:
         at = self.truth.q, self.truth.qd
         limit = self.robot.tau_max
         both = [np.clip(command.torques(*at), -limit, limit) for command in (told, given)]
-        return bool((np.abs(both[1] - both[0]) > SHOWS * limit).any())
+        return bool((np.abs(both[1] - both[0]) > SHOWS[0] * limit).any())
 
     # --- sensors -------------------------------------------------------------------------------------
     def read(self) -> Measured:
@@ -187,9 +198,9 @@ class FaultyPlant:
         due = [one for one in self.breakdowns if now >= one.at - 1e-9]
         for one in due:
             wrong = self.misread(told, one)
-            off = np.abs(wrong.load - told.load).max() > SHOWS * self.robot.total_mass * GRAVITY
-            if one not in self.shown and (off or (one.kind not in OF_A_LEG and wrong is not told)):
-                self.shown[one] = now
+            if one.kind in OF_A_SENSOR:
+                least = SHOWS[1] * self.robot.total_mass * GRAVITY if one.kind in OF_A_LEG else -1.0
+                self.count(one, now, float(np.abs(wrong.load - told.load).max()) > least)
             told = wrong
         most = max([LATE if one.kind == "late" else 0 for one in due] + [self.imperfections.late])
         self.late = min(most, self.late + 1)  # a stream that stalls, then goes on as late as that
@@ -234,8 +245,6 @@ class FaultyPlant:
             return frozen_body(told, self.kept.setdefault(one, told))
         if one.kind == "imu-tilted":
             return changed(told, orientation_wb=tilted(told.orientation_wb, np.array([OFFSET, 0.0])))
-        if one.kind == "late":
-            self.shown.setdefault(one, told.time)
         return told
 
 

@@ -10,8 +10,8 @@ from msgspec import Meta
 
 from gaitwright.errors import printable
 from gaitwright.model.robot import Robot, robot_of
+from gaitwright.perception.fault_words import Fault
 from gaitwright.record.channels import SITUATION, always, columns_of
-from gaitwright.signals import Fault
 
 MOST_LEGS = 16
 LARGEST = 1e6
@@ -42,8 +42,9 @@ class Noticed(msgspec.Struct, frozen=True):
     @property
     def fault(self) -> Fault:
         """It, in letters that do nothing to a terminal."""
-        own = msgspec.structs.asdict(self)
-        return Fault(**{name: printable(v) if isinstance(v, str) else v for name, v in own.items()})
+        leg, joint = (None if name is None else printable(name) for name in (self.leg, self.joint))
+        words = (printable(text) for text in (self.sentence, self.answer))
+        return Fault(printable(self.kind), leg, joint, self.since, self.noticed, *words)
 
 
 class Header(msgspec.Struct, frozen=True):

@@ -12,13 +12,13 @@ from gaitwright.errors import NoRoom
 from gaitwright.locomotion import Lap
 from gaitwright.model.robot import Robot, lists_of
 from gaitwright.numerics.geometry import GRAVITY
+from gaitwright.perception.fault_words import Fault
 from gaitwright.record import metrics as figures
 from gaitwright.record.channels import SITUATION, STATE, Packer, columns_of, widths
 from gaitwright.record.checked import check_rows, header_of, sound_rows
 from gaitwright.record.metrics import Report
 from gaitwright.record.npz import opened, read_blocks, read_header, write_npz
 from gaitwright.record.rows import BLOCK, Lazy, Table, Writer, filled, first_rows, parts
-from gaitwright.signals import Fault
 
 INTERRUPTED = "interrupted"
 """`stopped_because` of a trip that was cut off by the user."""

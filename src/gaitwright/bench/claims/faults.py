@@ -1,9 +1,9 @@
 """Claim: what breaks is noticed, named and answered; robots in order raise no alarm; what is off is borne.
 
-Each kind of fault is tried from many starts, which differ in leg, joint and moment, half of them in a trot, half
-in a walk. It is noticed where leg, joint and kind are named within a quarter of a second after it made a
-difference: a motor that dies while it gives next to nothing shows only later. It is safe where the body, in truth,
-neither tips over nor is thrown up, sinks slower than 1 m/s, and the motors are off at the end.
+Each kind of fault is tried from many starts, which differ in leg, joint and moment, half of them in a trot,
+half in a walk. It is noticed where leg, joint and kind are named within a quarter of a second after it made a
+difference: a motor that dies while it gives next to nothing shows only later. It is safe where the body, in
+truth, neither tips over nor is thrown up, sinks slower than 1 m/s, and the motors are off at the end.
 """
 
 from collections.abc import Iterator, Sequence
