@@ -19,7 +19,7 @@ STIRS = 0.05
 """[rad]"""
 STIRS_BODY = 0.1
 """The same of all joints together, for the body's readings [rad]."""
-LEAK = 0.5
+LEAK = 0.1
 """What went where no rate leads is forgotten within this time [s]."""
 MEAN = 0.02
 """And must stay for about this time, which a single bad reading does not [s]."""
@@ -116,12 +116,11 @@ def check_joints(memory, a, b, dt):
             else:
                 same[k, j] = others[k, j] = 0.0
             one, other = dt * rate_before[k, j], dt * rate[k, j]
-            more = off - min(max(off, min(one, other)), max(one, other))
-            drift[k, j] += more - dt / LEAK * drift[k, j]
+            drift[k, j] += off - 0.5 * (one + other) - dt / LEAK * drift[k, j]
             mean[k, j] += dt / MEAN * (drift[k, j] - mean[k, j])
-            if abs(mean[k, j]) > JUMPED:
-                return JUMPED_JOINT, k, j
             size = abs(rate[k, j])
+            if abs(mean[k, j]) > JUMPED + 2.0 * dt * size:
+                return JUMPED_JOINT, k, j
             calm[k, j] += dt / CALM * (size - calm[k, j])
             still[k, j] = still[k, j] + dt if size < SLOW else 0.0
     return STEADY, -1, -1

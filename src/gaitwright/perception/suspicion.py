@@ -26,6 +26,8 @@ HELD = 0.03
 """A joint is stuck no sooner than it has been slow for this time [s]."""
 LOOKS, DECIDES = 0.04, 0.12
 """Hypotheses are compared for so long at least; after the second the best one is taken [s]."""
+JAMMED, QUIET = 0.08, 0.25
+"""A foot may be caught for a moment: a joint is stuck after this time, and slower than this [s, rad/s]."""
 CONE = 1.2
 """No foot pushes sideways with more than this share of its load."""
 CARRIES = 0.02
@@ -136,7 +138,7 @@ def forget(forces, k):
 
 
 @kernel
-def verdict(forces, k, dt):
+def verdict(forces, calm, k, dt):
     """The hypothesis that is certain of leg `k`, or -1."""
     if forces.worst[k] < CERTAIN:
         forces.waited[k] = 0.0
@@ -153,4 +155,6 @@ def verdict(forces, k, dt):
         else:
             second = min(second, amiss)
     clear = forces.waited[k] > LOOKS and second > 2.0 * least + 0.0005 and hidden > 0.4 * least
+    if STUCK <= best < SENSOR and (forces.waited[k] < JAMMED or calm[k, best - STUCK] > QUIET):
+        return -1
     return best if clear or forces.waited[k] > DECIDES else -1

@@ -193,7 +193,7 @@ def judge(settings, forces, readings, b, up, gap, blind, t):
             forget(forces, k)
             continue
         judge_leg(forces, readings, k, up, lack, healthy, weight, height, pace, margin, t, dt)
-        h = verdict(forces, k, dt)
+        h = verdict(forces, readings.calm, k, dt)
         if h < 0:
             continue
         since = forces.since[k, h]

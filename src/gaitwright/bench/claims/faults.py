@@ -135,7 +135,10 @@ def false_alarms(context: Context) -> Figure:
     alarms = [(t, o.report.faults[0]) for t, o in zip(trials, outcomes, strict=True) if o.report.faults]
     note = "".join(f"{t.name} {t.skill} on {t.scene}, seed {t.seed}: {f['sentence']}; " for t, f in alarms)
     what = "robots in order that raised an alarm: skills, terrains, pushes, other masses, noise, delay"
-    return Figure(what, float(len(alarms)), f"of {len(trials)}", at_most(0.0), len(trials), note[:200])
+    numbers = {"alarms": [{"trial": repr(trial), "fault": fault} for trial, fault in alarms]}
+    return Figure(
+        what, float(len(alarms)), f"of {len(trials)}", at_most(0.0), len(trials), note[:200], numbers
+    )
 
 
 def healthy(seeds: Sequence[int]) -> list[Trial]:
