@@ -55,7 +55,7 @@ def unexplained(force, moment, change, at, height):
 
 
 @kernel
-def change_of(h, foot, now, up, weight):
+def change_of(h, foot, now, up, lack, weight, height):
     """By how much the force of a foot is another one if a hypothesis is right [N]; none for the sensor's."""
     one, two, three = vec(foot[6:]), vec(foot[9:]), vec(foot[12:])
     if h == 0:
@@ -68,12 +68,14 @@ def change_of(h, foot, now, up, weight):
         return add(one, add(two, three))
     if h == SENSOR:
         return (0.0, 0.0, 0.0)
+    # The torque that holds a joint is the one that leaves least: of force and moment, and of load.
     force, unit = vec(foot), vec(now[3 * (h - STUCK) :])
-    if foot[LOAD] < CARRIES * weight:  # the torque that holds it is what leaves least of the force
-        return scale(-dot(force, unit) / dot(unit, unit), unit)
-    along, least = dot(unit, up), 0.2 * length(unit)
-    along = math.copysign(max(abs(along), least), along)
-    return scale((foot[LOAD] - dot(force, up)) / along, unit)
+    turn, pull = scale(1.0 / height, cross(vec(now[9:]), unit)), scale(1.0 / height, lack[1])
+    fits, of = dot(lack[0], unit) + dot(pull, turn), dot(unit, unit) + dot(turn, turn)
+    if foot[LOAD] < CARRIES * weight:
+        return scale((fits - dot(force, unit)) / (of + dot(unit, unit)), unit)
+    along = dot(unit, up)
+    return scale((fits + (foot[LOAD] - dot(force, up)) * along) / (of + along * along), unit)
 
 
 @kernel
@@ -89,7 +91,7 @@ def sensor_misfit(foot, up, weight, pace):
 def miss_of(h, forces, readings, k, up, lack, weight, height, pace):
     """What a hypothesis leaves unexplained, in weights."""
     foot = forces.mean[k]
-    change = change_of(h, foot, forces.now[k], up, weight)
+    change = change_of(h, foot, forces.now[k], up, lack, weight, height)
     if h == SENSOR:
         if readings.same_load[k] < 5.0:
             return NO_FIT
