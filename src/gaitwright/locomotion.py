@@ -19,7 +19,9 @@ from gaitwright.ground.scene import Scene
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.model.robot import Robot
 from gaitwright.navigation.navigator import Navigator
+from gaitwright.perception.fault_words import Fault
 from gaitwright.perception.known_ground import KnownGround
+from gaitwright.perception.watch import Watch, WatchMemory
 from gaitwright.signals import (
     Gait,
     GroundMap,
@@ -83,6 +85,8 @@ class Brain:
     chooser: Chooser
     coordinator: MotionStage
     controllers: dict[str, Controller]
+    watch: Watch | None = None
+    """Who notices what is broken; `None`: nobody."""
 
     @classmethod
     def of(  # noqa: PLR0913 - the door to all settings; most calls name two of these
@@ -94,12 +98,14 @@ class Brain:
         method: Method = "qp",
         sees: bool = True,
         rulebook: Rulebook | None = None,
+        watches: bool = True,
     ) -> "Brain":
         """A brain for a robot in a scene it knows, its torques by the numerical controller.
 
         `chooser`: by default the plain rules of `skills.chooser`; `dt`: control period [s]; `method`: how
         foot forces are shared, `"qp"` or the thesis's `"lp"`; `sees`: whether feet know the ground ahead;
-        `rulebook`: rules that choose the skills in the place of a chooser.
+        `rulebook`: rules that choose the skills in the place of a chooser; `watches`: whether faults of the
+        robot are noticed.
         """
         if chooser is None:
             chooser = DefaultChooser(robot) if rulebook is None else RuleChooser(robot, rulebook)
@@ -116,6 +122,7 @@ class Brain:
                 "kinematic": KinematicController(robot),
                 "programmed": Programmed(robot),
             },
+            Watch(robot, dt) if watches else None,
         )
 
     def controller(self, driver: str) -> Controller:
@@ -167,6 +174,7 @@ class Memories(NamedTuple):
     control: Memory = None
     controller: Controller | None = None
     """Whose memory `control` is: another one begins anew."""
+    watch: WatchMemory | None = None
 
 
 class Mind(NamedTuple):
@@ -201,6 +209,8 @@ class Lap(NamedTuple):
     """Why the run ends with this lap."""
     arrived: bool = False
     fell: bool = False
+    faults: tuple[Fault, ...] = ()
+    """What was noticed to be broken so far."""
 
     @property
     def torques(self) -> MotorCommand:
@@ -212,6 +222,9 @@ def think(brain: Brain, mind: Mind, measured: Measured) -> tuple[Lap, Mind]:
     """One lap from what is measured to a command, in the order of the data flow."""
     began = perf_counter_ns()
     sensed, ground, perceived = brain.perception.perceive(measured, mind.memories.perception)
+    watch, watched = brain.watch, mind.memories.watch
+    if watch is not None:
+        sensed, watched = watch.check(measured, sensed, watched)
     mind, travelled = plan_and_choose(brain, mind, sensed, ground)
     call = mind.call
     target, gait = brain.coordinator.move(mind.memories.gait, call, sensed, ground)
@@ -221,7 +234,10 @@ def think(brain: Brain, mind: Mind, measured: Measured) -> tuple[Lap, Mind]:
     command, control = controller.command(target, sensed, own, call, ground)
     done = perf_counter_ns()
     lap = Lap(sensed, mind.route, call, target, command, ((done - began) / 1e3, (done - handed) / 1e3))
-    memories = Memories(perceived, travelled, gait, control, controller)
+    if watch is not None and watched is not None:
+        watched = watch.heard(watched, target, command, sensed)
+        lap = lap._replace(faults=watched.faults) if watched.faults else lap
+    memories = Memories(perceived, travelled, gait, control, controller, watched)
     return lap, Mind(mind.mission, ground, mind.route, call, memories, mind.looked_at, mind.chosen_at)
 
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gaitwright.control.numerical import idle
+from gaitwright.descent import can_descend, descent, lies_down
 from gaitwright.errors import NoRoom, WrongUse, is_interrupt
 from gaitwright.ground.scene import Scene
 from gaitwright.locomotion import Brain, Lap, Mind, think
@@ -67,10 +68,10 @@ class Session:
     """One robot's run from its start to its end.
 
     `seed` varies the start where `vary`: pose, velocity and the phase of the gait. After the last step, or
-    `close`, the motors are off.
+    `close`, the motors are off; where it `lowers`, they go on until `lower` has let the robot down.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - the door to a run
         self,
         brain: Brain,
         plant: Plant,
@@ -78,7 +79,11 @@ class Session:
         seconds: float = 60.0,
         seed: int = 0,
         vary: bool = True,
+        lowers: bool = False,
     ) -> None:
+        if not getattr(plant, "has_mechanics", True):
+            brain, lowers = replace(brain, watch=None), False
+        self.lowers = lowers
         self.brain, self.plant = brain, plant
         self.measured: Measured = plant.reset(seed, vary)
         phase = float(np.random.default_rng([seed, 1]).uniform()) if vary else 0.0
@@ -109,13 +114,32 @@ class Session:
         else:
             lap, self.mind = think(self.brain, self.mind, self.measured)
             ending = self.termination.judge(lap.sensed, lap.route, lap.call, lap.target, lap.command)
+            if lies_down(lap) and not (ending and ending.fell):
+                ending = Ending(lap.faults[-1].sentence)
             self.lap = ended(lap, ending) if ending else lap
-        if self.is_over:
-            self.close()
-        else:
+        if not self.is_over:
             self.push_if_due(self.lap)
             self.measured = self.plant.step(self.lap.command)
+        elif not self.can_lower:
+            self.close()
         return self.lap
+
+    @property
+    def can_lower(self) -> bool:
+        """Whether there is a robot that can be let down, and somebody to do it."""
+        return (
+            self.lowers and not self.closed and self.lap is not None and can_descend(self.lap, self.measured)
+        )
+
+    def lower(self) -> Iterator[Lap]:
+        """Lets the robot down after a trip that is over or cut off: laps of no trip, then motors off."""
+        try:
+            if self.pushing_until is not None:
+                self.simulated().push((0.0, 0.0, 0.0))
+            if self.can_lower and self.lap is not None:
+                yield from descent(self.brain, self.plant, self.mind, self.lap, self.measured)
+        finally:
+            self.close()
 
     def __iter__(self) -> Iterator[Lap]:
         """Laps until the run is over or paused; motors off however that comes about."""
@@ -123,7 +147,7 @@ class Session:
             while (lap := self.step()) is not None:
                 yield lap
         finally:
-            if not self.paused:
+            if not self.paused and not self.can_lower:
                 self.close()
 
     def close(self) -> None:
@@ -200,12 +224,13 @@ def walk(  # noqa: PLR0913 - the door to everything; most calls name three of th
     vary: bool = True,
     scene: str = "",
     watch: Callable[[Lap], None] | None = None,
+    lowers: bool = False,
 ) -> Recording:
     """Takes a robot through a mission; an interrupt (Ctrl-C) keeps what was recorded.
 
-    `watch`, where given, is called with every lap.
+    `watch`, where given, is called with every lap; `lowers`: whether the robot is let down at the end.
     """
-    return record(Session(brain, plant, mission, seconds, seed, vary), seed, scene, watch)
+    return record(Session(brain, plant, mission, seconds, seed, vary, lowers), seed, scene, watch)
 
 
 def record(
@@ -223,4 +248,20 @@ def record(
     except (KeyboardInterrupt, SystemError) as error:
         if not is_interrupt(error):
             raise
+    recorder.end_trip()
+    keep_lowering(session, recorder)
     return recorder.finish()
+
+
+def keep_lowering(session: Session, recorder: Recorder) -> None:
+    """Lets the robot down and keeps that; another interrupt, or a full disk, ends it."""
+    try:
+        for lap in session.lower():
+            recorder.add(lap)
+    except NoRoom:
+        pass
+    except (KeyboardInterrupt, SystemError) as error:
+        if not is_interrupt(error):
+            raise
+    finally:
+        session.close()

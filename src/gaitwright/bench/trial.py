@@ -9,12 +9,14 @@ from typing import Any
 
 import numpy as np
 
+from gaitwright.bench.witness import Change, Seen, Witness
 from gaitwright.control.numerical import Method
 from gaitwright.description.load import load_robot
 from gaitwright.ground.scene import Scene
 from gaitwright.locomotion import Brain
 from gaitwright.model.perturb import perturbed
 from gaitwright.model.robot import Robot
+from gaitwright.plant.faults import Breakdown, FaultyPlant, Imperfections
 from gaitwright.plant.registry import make_plant
 from gaitwright.record.metrics import Report
 from gaitwright.record.recording import INTERRUPTED, Recording
@@ -61,6 +63,19 @@ class Trial:
     push: Push | None = None
     plant: str = "mujoco"
     driver: str = "numerical"
+    faults: tuple[Breakdown, ...] = ()
+    """What breaks."""
+    imperfections: Imperfections | None = None
+    """How far readings are from the truth."""
+    change: Change | None = None
+    """How the robot differs from what its brain knows of it."""
+    lowers: bool = False
+    """Whether it is let down at the end."""
+
+    @property
+    def is_imperfect(self) -> bool:
+        """Whether readings or motors are not what they should be."""
+        return bool(self.faults) or self.imperfections is not None
 
     @property
     def name(self) -> str:
@@ -83,6 +98,8 @@ class Outcome:
     report: Report
     cpu_s: float
     wall_s: float
+    seen: Seen | None = None
+    """What became of it in truth, where something breaks."""
 
     def plain(self) -> dict[str, Any]:
         """As plain JSON values, without the times of ticks: workers disturb each other."""
@@ -100,23 +117,30 @@ class Outcome:
 def simulate(trial: Trial) -> Outcome:
     """Runs one trial; the same trial gives the same outcome in any process."""
     robot = robot_named(trial.robot)
+    change = trial.change or Change()
+    robot = change.known(robot)
     scene = scene_for(robot, trial.scene, trial.seed)
     brain = brain_for(trial, robot, scene)
-    plant = make_plant(trial.plant, robot, scene, DT)
+    plant = Witness(make_plant(trial.plant, change.real(robot), scene, DT), robot)
+    whole = (
+        FaultyPlant(plant, robot, trial.faults, trial.imperfections) if trial.is_imperfect else plant.plant
+    )
     mission = Mission(() if trial.goal is None else (trial.goal,), driver=trial.driver)
     cpu, wall = process_time(), perf_counter()
-    session = Session(brain, plant, mission, trial.seconds, trial.seed)
+    session = Session(brain, whole, mission, trial.seconds, trial.seed, lowers=trial.lowers)
     if trial.push:
         session.push(trial.push)
     recording = record(session, trial.seed, scene.name)
     cpu, wall = process_time() - cpu, perf_counter() - wall
     if recording.stopped_because == INTERRUPTED:
         raise KeyboardInterrupt
-    where = recording["position_w"][:, :2]
+    where = recording.of_trip()["position_w"][:, :2]
     target = where[0] if trial.goal is None else trial.goal
     off = math.dist(where[-1], target) / robot.body_length
     kept_up = recording.done and not recording.fell
-    return Outcome(kept_up, off, held(recording), beyond_limits(recording), recording.report(), cpu, wall)
+    seen = plant.seen(whole.shown, whole.asked) if isinstance(whole, FaultyPlant) else None
+    limits = beyond_limits(recording)
+    return Outcome(kept_up, off, held(recording), limits, recording.report(), cpu, wall, seen)
 
 
 def held(recording: Recording) -> float:

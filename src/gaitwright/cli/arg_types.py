@@ -7,7 +7,7 @@ from pathlib import Path
 
 from gaitwright.errors import WrongUse, short, unknown
 from gaitwright.files import is_there
-from gaitwright.plant.names import INTEGRATORS, PLANTS
+from gaitwright.plant.names import FAULTS, INTEGRATORS, PLANTS
 
 DRIVERS = {
     "numerical": "solves the robot's dynamics 500 times a second",
@@ -112,6 +112,22 @@ def book_task(text: str) -> str:
     if text not in BOOK_TASKS:
         raise unknown("task of books", text, BOOK_TASKS)
     return text
+
+
+def fault(text: str) -> tuple[str, str, str, float]:
+    """Kind, leg, joint (empty where none is named) and time of KIND[:LEG[:JOINT]]@T."""
+    parts, at, time = text.rpartition("@")
+    kind, leg, joint, *more = [*parts.split(":"), "", ""]
+    if not at or any(more):
+        raise argparse.ArgumentTypeError(
+            f"{text.strip()!r} is not a fault; write KIND[:LEG[:JOINT]]@T, e.g. motor-dead:FL:knee@2"
+        )
+    if kind not in FAULTS:
+        raise unknown("fault", kind, FAULTS)
+    seconds = finite(time)
+    if seconds < 0.0:
+        raise argparse.ArgumentTypeError(f"a fault begins at a time that is not negative, not {seconds:g}")
+    return kind, leg, joint, seconds
 
 
 def integrator(text: str) -> str:

@@ -11,6 +11,7 @@ from gaitwright.cli.arg_types import (
     distribution,
     driver,
     duration,
+    fault,
     finite,
     folder,
     integrator,
@@ -20,7 +21,7 @@ from gaitwright.cli.arg_types import (
     positive,
     seed,
 )
-from gaitwright.plant.names import INTEGRATORS, PLANTS
+from gaitwright.plant.names import FAULTS, INTEGRATORS, JOINTS, PLANTS
 
 
 def add_demo(parser: argparse.ArgumentParser) -> None:
@@ -104,6 +105,15 @@ def add_run(parser: argparse.ArgumentParser, seconds: float) -> None:
     parser.add_argument("--seed", type=seed, default=0, metavar="N", help=random)
     parser.add_argument("--out", metavar="DIR", help="a new folder for picture, recording and report")
     add_plant(parser)
+    broken = (
+        "let something fail at time T, in seconds; may be given several times, e.g. motor-dead:FL:knee@2 or "
+        f"frozen@2. Kinds: {listed(FAULTS)}. LEG is a leg of the robot, JOINT is {', '.join(JOINTS)}; "
+        "motors and joints name both, feet and whole legs a leg. A robot that notices says what is broken, "
+        "and lies down where it cannot go on (nothing fails)"
+    )
+    parser.add_argument(
+        "--fault", type=fault, action="append", default=[], metavar="KIND[:LEG[:JOINT]]@T", help=broken
+    )
 
 
 def add_plant(parser: argparse.ArgumentParser) -> None:

@@ -16,7 +16,7 @@ def recorded_facts(path: str, at: float | None) -> tuple[float, Memory]:
 
     Raises `BadFile` for a file that is no recording, `WrongUse` for a moment that was not recorded.
     """
-    recording = load(path).sound()
+    recording = load(path).of_trip().sound()
     time = recording["time"]
     if at is not None and not time[0] <= at <= time[-1]:
         raise WrongUse(f"--at {at:g}: the recording goes from {time[0]:g} to {time[-1]:g} s")

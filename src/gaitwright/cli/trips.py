@@ -20,6 +20,7 @@ from gaitwright.locomotion import Brain, Lap
 from gaitwright.model.robot import Robot
 from gaitwright.navigation.navigator import Navigator
 from gaitwright.numerics.compiled import is_warm
+from gaitwright.plant.faults import FaultyPlant, breakdown
 from gaitwright.plant.registry import make_plant
 from gaitwright.record.recording import INTERRUPTED, Recording, Report
 from gaitwright.session import DT, Push, Session, record, scene_for, walk
@@ -105,6 +106,8 @@ def check_mechanics(driver: str, args: Namespace) -> None:
             f"plant kinematic has no mechanics, so the torques of driver {driver} move nothing there; "
             f"drivers {' and '.join(WITHOUT_MECHANICS)} do"
         )
+    if getattr(args, "fault", None):
+        raise WrongUse("plant kinematic has no motors and sensors that could fail; plant mujoco has")
     if getattr(args, "push", None):
         raise WrongUse("plant kinematic has no mechanics, so a push moves nothing there; plant mujoco has")
 
@@ -118,6 +121,7 @@ def run(
 ) -> int:
     """Simulates, reports, leaves the files in `args.out`; returns the exit code."""
     check_mechanics(mission.driver, args)
+    broken = [breakdown(setting.robot, *asked) for asked in getattr(args, "fault", [])]
     cold = args.plant == "armstrong" and not is_warm("integrators.advance")
     what = (
         "compiling the plant's kernels (first run only, up to two minutes)" if cold else "building the world"
@@ -143,7 +147,8 @@ def run(
             if checks:
                 checks.add(lap)
 
-        session = Session(setting.brain, plant, mission, args.seconds, args.seed, setting.varied)
+        whole = FaultyPlant(plant, setting.robot, broken) if broken else plant
+        session = Session(setting.brain, whole, mission, args.seconds, args.seed, setting.varied, lowers=True)
         if push:
             session.push(push)
         recording = record(session, args.seed, setting.scene.name, watch)
@@ -198,6 +203,10 @@ def table_of(report: Report, wall: float, goal: bool) -> list[tuple[str, str]]:
         ("driver", drivers),
         *arrived,
         ("falls", str(report.falls)),
+        *[
+            ("fault", f"{fault['sentence']}; noticed at {fault['noticed']:.2f} s, {fault['answer']}")
+            for fault in report.faults
+        ],
         ("time", f"{report.duration_s:.2f} s"),
         ("distance", f"{report.distance_m:.2f} m"),
         ("mean speed", f"{report.speed_mean_mps:.3f} m/s"),

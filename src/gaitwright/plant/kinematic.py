@@ -6,6 +6,7 @@ whether a motion fits together, not whether a robot could do it.
 """
 
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 from jaxtyping import Float
@@ -41,6 +42,8 @@ class KinematicPlant:
     scene: Scene
     dt: float = 0.002
     """Control period [s]."""
+    has_mechanics: ClassVar[bool] = False
+    """Motors move nothing here: nobody can be lowered, and no motor be watched."""
     pose: Pose = field(init=False, repr=False)
     ticks: int = field(init=False, default=0)
 

@@ -10,6 +10,7 @@ from msgspec import Meta
 
 from gaitwright.errors import printable
 from gaitwright.model.robot import Robot, robot_of
+from gaitwright.perception.fault_words import Fault
 from gaitwright.record.channels import SITUATION, always, columns_of
 
 MOST_LEGS = 16
@@ -27,6 +28,25 @@ Names = Annotated[tuple[Name, ...], Meta(max_length=1000)]
 Lists = Annotated[list[Any], Meta(max_length=MOST_LEGS)]
 
 
+class Noticed(msgspec.Struct, frozen=True):
+    """A `Fault`."""
+
+    kind: Name
+    leg: Name | None
+    joint: Name | None
+    since: float
+    noticed: float
+    sentence: Annotated[str, Meta(max_length=1000)]
+    answer: Name
+
+    @property
+    def fault(self) -> Fault:
+        """It, in letters that do nothing to a terminal."""
+        leg, joint = (None if name is None else printable(name) for name in (self.leg, self.joint))
+        words = (printable(text) for text in (self.sentence, self.answer))
+        return Fault(printable(self.kind), leg, joint, self.since, self.noticed, *words)
+
+
 class Header(msgspec.Struct, frozen=True):
     """The JSON beside the channels."""
 
@@ -39,6 +59,8 @@ class Header(msgspec.Struct, frozen=True):
     fell: bool
     stopped_because: Annotated[str, Meta(max_length=10_000)]
     robot: dict[str, str | float | Lists]
+    faults: Annotated[tuple[Noticed, ...], Meta(max_length=100)] = ()
+    trip: Annotated[int, Meta(ge=1)] | None = None
 
 
 def header_of(content: bytes) -> tuple[Robot, dict[str, Any]]:
@@ -50,6 +72,7 @@ def header_of(content: bytes) -> tuple[Robot, dict[str, Any]]:
         "stopped_because": printable(entry.stopped_because),
         "skills": tuple(map(printable, entry.skills)),
         "drivers": tuple(map(printable, entry.drivers)),
+        "faults": tuple(noticed.fault for noticed in entry.faults),
     }
     robot = robot_of(dict(entry.robot))
     fault = next(faults_of(robot), None)

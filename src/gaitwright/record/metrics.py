@@ -6,8 +6,9 @@ They go through a trip a part at a time: one of hours takes a few numbers a tick
 import hashlib
 import json
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -51,6 +52,8 @@ class Report:
     seed: int
     state_hash: str
     """SHA-256 of every sensed state and torque: equal for equal seeds on one machine."""
+    faults: list[dict[str, Any]] = field(default_factory=list)
+    """What was noticed to be broken: the fields of each `signals.Fault`."""
 
     def to_json(self) -> str:
         """As JSON; everything but `tick_us` is the same for the same seed."""

@@ -1,7 +1,7 @@
 """Laps ↔ file: every lap of a trip as arrays, and its report (row E1)."""
 
 import json
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,12 +12,13 @@ from gaitwright.errors import NoRoom
 from gaitwright.locomotion import Lap
 from gaitwright.model.robot import Robot, lists_of
 from gaitwright.numerics.geometry import GRAVITY
+from gaitwright.perception.fault_words import Fault
 from gaitwright.record import metrics as figures
 from gaitwright.record.channels import SITUATION, STATE, Packer, columns_of, widths
 from gaitwright.record.checked import check_rows, header_of, sound_rows
 from gaitwright.record.metrics import Report
 from gaitwright.record.npz import opened, read_blocks, read_header, write_npz
-from gaitwright.record.rows import BLOCK, Lazy, Table, Writer, filled, parts
+from gaitwright.record.rows import BLOCK, Lazy, Table, Writer, filled, first_rows, parts
 
 INTERRUPTED = "interrupted"
 """`stopped_because` of a trip that was cut off by the user."""
@@ -43,6 +44,10 @@ class Recording:
     arrived: bool
     fell: bool
     stopped_because: str
+    faults: tuple[Fault, ...] = ()
+    """What was noticed to be broken."""
+    trip: int | None = None
+    """Ticks of the trip, where the robot was let down after it; `None`: all of them."""
 
     def __len__(self) -> int:
         """Number of ticks."""
@@ -99,8 +104,15 @@ class Recording:
 
     def report(self) -> Report:
         """The figures of this trip; it must have a tick."""
-        state_hash = figures.digest(self.channel(name) for name in STATE)
-        return self.sound().figures(state_hash)
+        trip = self.of_trip()
+        state_hash = figures.digest(trip.channel(name) for name in STATE)
+        return trip.sound().figures(state_hash)
+
+    def of_trip(self) -> "Recording":
+        """The recording without what came after the trip."""
+        if self.trip is None or self.trip >= len(self):
+            return self
+        return replace(self, data=first_rows(self.data, self.trip), trip=None)
 
     def figures(self, state_hash: str) -> Report:
         """The figures where every number is one."""
@@ -135,6 +147,7 @@ class Recording:
             stopped_because=self.stopped_because,
             seed=self.seed,
             state_hash=state_hash,
+            faults=[asdict(fault) for fault in self.faults],
         )
 
     def save(self, path: str | Path) -> Path:
@@ -146,10 +159,11 @@ class Recording:
     def header(self) -> dict[str, Any]:
         """All but the arrays, as plain JSON values."""
         own = {name: getattr(self, name) for name in HEADER}
+        own["faults"] = [asdict(fault) for fault in self.faults]
         return own | {"robot": lists_of(self.robot)}
 
 
-HEADER = ("scene", "seed", "dt", "skills", "drivers", "arrived", "fell", "stopped_because")
+HEADER = ("scene", "seed", "dt", "skills", "drivers", "arrived", "fell", "stopped_because", "trip")
 """Fields of a recording that its file holds as they are."""
 
 
@@ -161,16 +175,22 @@ class Recorder:
         self.packer = Packer(robot.n)
         self.writer = Writer(sum(widths(robot.n).values()))
         self.last: Lap | None = None
+        self.laps = 0
+        self.trip: int | None = None
         self.no_room: str | None = None
 
     def add(self, lap: Lap) -> None:
         """Takes one lap. Raises `NoRoom` where the disk is full: the trip has to end, and nothing is lost."""
-        self.last = lap
+        self.last, self.laps = lap, self.laps + 1
         try:
             self.writer.add(self.packer.row(lap))
         except NoRoom as error:
             self.no_room = str(error)
             raise
+
+    def end_trip(self) -> None:
+        """What comes now belongs to the trip no more."""
+        self.trip = self.laps
 
     def finish(self) -> Recording:
         """The recording of what was taken so far."""
@@ -186,6 +206,8 @@ class Recorder:
             arrived=last is not None and last.arrived,
             fell=last is not None and last.fell,
             stopped_because=(last.stopped_because if last else None) or self.no_room or INTERRUPTED,
+            faults=last.faults if last else (),
+            trip=self.trip if self.trip != self.laps else None,
         )
 
 

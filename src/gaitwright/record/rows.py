@@ -108,6 +108,13 @@ class Table:
         return np.asarray(self[:, :], dtype=dtype)
 
 
+def first_rows(data: "np.ndarray | Table", length: int) -> "np.ndarray | Table":
+    """The first rows of some; those that are left out are in memory."""
+    if isinstance(data, Table):
+        return Table(data.file, data.blocks, data.tail[: length - data.blocks * BLOCK])
+    return data[:length]
+
+
 class Writer:
     """Takes rows, one after the other."""
 
