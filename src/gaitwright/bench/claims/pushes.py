@@ -42,7 +42,7 @@ class Row:
 ROWS = (
     Row("go2", 1.0, "sideways", SIDEWAYS, 0.95),
     Row("go2", 1.2, "sideways", SIDEWAYS, 0.95),
-    Row("go2", 1.5, "sideways", SIDEWAYS, 0.80),
+    Row("go2", 1.5, "sideways", SIDEWAYS, 0.95),
     Row("go2", 2.0, "forward", FORWARD, 0.95),
 )
 OTHERS = tuple(
