@@ -282,9 +282,9 @@ print(peak() - before)
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="only Linux tells a process its peak")
 def test_a_long_recording_takes_little_more_memory_than_a_short_one(tmp_path: Path):
     pytest.importorskip("matplotlib")
-    ticks = 150_000
+    ticks = 200_000
     child = subprocess.run(
         [sys.executable, "-c", LONG, str(ticks)], cwd=tmp_path, capture_output=True, text=True, check=False
     )
     assert child.returncode == 0, child.stderr
-    assert int(child.stdout) < 784 * ticks / 3, "its rows alone are 784 bytes a tick"
+    assert int(child.stdout) < 784 * ticks / 2, "its rows alone are 784 bytes a tick"

@@ -80,8 +80,9 @@ def limit_rows(free, push, stance, share, friction, frame, tau_max, weight):
             continue
         x = 3 * k
         most = MOST_NORMAL * share[leg]
+        wide = (1.0 + PYRAMID * friction[leg]) * most  # beyond what friction allows: it is that which counts
         for j in range(2):
-            lower[x + j], upper[x + j] = -most, most
+            lower[x + j], upper[x + j] = -wide, wide
         lower[x + 2], upper[x + 2] = 0.0, most
         # Friction: −∞ ≤ ±t − μ n ≤ 0, with a bound that no force reaches for −∞.
         for i in range(4):
