@@ -14,7 +14,7 @@ import numpy as np
 from gaitwright.control.joint_stops import braking, fastest, room
 from gaitwright.dynamics.joint_inertia import joint_inertias
 from gaitwright.model.leg import combined, foot_and_columns, leg_at, leg_turns, solve_columns
-from gaitwright.model.robot import LAYOUT, scales
+from gaitwright.model.robot import LAYOUT, damping_of, friction_of, scales
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import add, cross, rotation, scale, sub, times, times_t, vec
 from gaitwright.numerics.matrices import apply, apply_t
@@ -31,9 +31,7 @@ CREEP = 0.5
 """Dry friction counts in full from this rate on, and grows with the rate below it [rad/s]: a joint at rest
 does not chatter."""
 
-damping_of, friction_of, q_min_of, q_max_of = (
-    LAYOUT.field(name) for name in ("damping", "friction", "q_min", "q_max")
-)
+q_min_of, q_max_of = LAYOUT.field("q_min"), LAYOUT.field("q_max")
 
 
 class Stretch(NamedTuple):

@@ -49,6 +49,7 @@ unpacked = LAYOUT.views(RobotArrays)
 """The `RobotArrays` in a `Robot.packed`, as views; for kernels too."""
 legs_of = LAYOUT.legs()
 tau_max_of, measures_of = LAYOUT.field("tau_max"), LAYOUT.field("measures")
+damping_of, friction_of = LAYOUT.field("damping"), LAYOUT.field("friction")
 
 
 @dataclass(frozen=True)

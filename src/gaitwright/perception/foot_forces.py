@@ -42,23 +42,23 @@ def per_torque(leg, c1, c2, c3):
 
 
 @kernel
-def leg_forces(leg, settings, k, q, rates, new, motion, told, load, share, mean, now, need):
-    """Brings the means of leg `k` one tick on; its wrench on the base less that of its force on the ground.
+def leg_forces(leg, damping, friction, q, rates, new, dt, motion, told, load, share, mean, now, need):
+    """Brings the means of a leg one tick on; its wrench on the base less that of its force on the ground.
 
-    `q`, `rates`, `new`: its angles and rates a tick ago, and its rates now; `motion`: angular velocity and
-    acceleration of the base, acceleration less gravity of its origin, its velocity and the ground's normal,
-    all base axes; `told`: the leg's torques; `load`: felt by the foot; `share`: of a new value in a mean.
+    `damping`, `friction`: of its joints; `q`, `rates`, `new`: its angles and rates a tick ago, and its rates
+    now, `dt` later; `motion`: angular velocity and acceleration of the base, acceleration less gravity of its
+    origin, its velocity and the ground's normal, all base axes; `told`: the leg's torques; `load`: felt by
+    the foot; `share`: of a new value in a mean.
     Writes the torques that the motion needs into `need`; hands back the load by torques, too.
     """
     w, wd, pull, velocity, up = motion
-    damping, friction, dt = settings.damping, settings.friction, settings.dt
     turns = leg_turns(q, leg.sign)
     qdd = scale(1.0 / dt, sub(new, rates))
     links = links_motion(leg, turns, w, wd, pull, rates, qdd)
     force, moment, tau = leg_load(turns, qdd, leg, links, NO_LOAD)
-    need[0] = tau[0] + resistance(damping[k, 0], friction[k, 0], new[0])
-    need[1] = tau[1] + resistance(damping[k, 1], friction[k, 1], new[1])
-    need[2] = tau[2] + resistance(damping[k, 2], friction[k, 2], new[2])
+    need[0] = tau[0] + resistance(damping[0], friction[0], new[0])
+    need[1] = tau[1] + resistance(damping[1], friction[1], new[1])
+    need[2] = tau[2] + resistance(damping[2], friction[2], new[2])
     foot, c1, c2, c3 = foot_and_columns(turns, leg.offset, leg.sign)
     below = scale(-leg.foot_radius, apply_t(leg.frame, up))
     x1, x2, x3 = hinge_axes(turns, leg.sign)

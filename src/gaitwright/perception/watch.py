@@ -5,19 +5,16 @@ without: the load of that foot is then what the leg's torques stand for. Everyth
 """
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Float
 
 from gaitwright.model.leg import leg_at
-from gaitwright.model.robot import Robot
+from gaitwright.model.robot import Robot, damping_of, friction_of, scales
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import GRAVITY, add, rotation, scale, vec
 from gaitwright.numerics.matrices import row as row_of
-from gaitwright.numerics.packing import Layout, Row
-from gaitwright.numerics.parts import part
+from gaitwright.numerics.packing import Row
 from gaitwright.perception.fault_words import FOOT_FAULTS, LIES_DOWN, Fault, fault_of
 from gaitwright.perception.foot_forces import LOAD, balance, base_motion, base_pull, leg_forces
 from gaitwright.perception.lateness import compare, new_lag, remember
@@ -62,35 +59,15 @@ sensed_fields = Sensed.layout.views()
 normal_of = MotionTarget.layout.field("normal_w")
 
 
-class Settings(NamedTuple):
-    """What the kernel knows of a robot beside `Robot.packed`."""
-
-    damping: Float[np.ndarray, "legs 3"]
-    friction: Float[np.ndarray, "legs 3"]
-    weight: float
-    height: float
-    pace: float
-    """√(g h) [m/s]."""
-    dt: float
-
-
-SETTINGS = Layout.of(Settings)
-settings_in = SETTINGS.views(Settings)
-PER_LEG = SETTINGS.length
-
-
 @kernel
-def look(constants, was, now, pull, asked, told, row):
+def look(packed, dt, was, now, pull, asked, told, row):
     """One tick of the watch: changes its memory; (what is found, leg, joint or ticks, since when).
 
-    `constants`: `Robot.packed` and the packed `Settings`; `was`, `now`: rows of the `Sensed` before and of
-    this one; `pull`: specific force; `asked`, `told`: rows of the `MotionTarget` and the torques in between.
+    `packed`: `Robot.packed`; `dt`: control period; `was`, `now`: rows of the `Sensed` before and of this
+    one; `pull`: specific force; `asked`, `told`: rows of the `MotionTarget` and the torques in between.
     """
     a, b = sensed_fields(was), sensed_fields(now)
     n, t = b.load.size, b.time
-    most = PER_LEG[0] + PER_LEG[1] * n
-    settings = settings_in(part(constants, constants.size - most, (most,)))
-    packed, dt = part(constants, 0, (constants.size - most,)), settings.dt
     readings, forces, late = tables(row, n)
     place = remember(late, told)
     found, ticks = check_all(readings, a, b, dt)
@@ -105,15 +82,21 @@ def look(constants, was, now, pull, asked, told, row):
         return found, leg, joint, t - dt * (readings.same[1] if leg < 0 else readings.same_joint[leg, joint])
     before = rotation(a.orientation_wb)
     motion = base_motion(a, spin(a, b, dt), pull, before, vec(normal_of(asked)))
-    gap = weigh(packed, settings, a, b, motion, place, forces, late)
+    gap = weigh(packed, dt, a, b, motion, place, forces, late)
     lag = new_lag(late, dt)
     if lag >= 0:
         for k in range(n):
             forget(forces, k)
-        if lag * dt > BEARABLE * settings.pace / GRAVITY:
+        if lag * dt > BEARABLE * pace_of(packed) / GRAVITY:
             return LATE, -1, lag, t - 0.05
     blind = late.ticks[0] < BEGINS or late.dark[0] > 0.0 or late.better[0] > 0.0
-    return judge(settings, forces, readings, b, motion[4], gap, blind, t)
+    return judge(packed, dt, forces, readings, b, motion[4], gap, blind, t)
+
+
+@kernel
+def pace_of(packed):
+    """√(g h) of a `Robot.packed` [m/s]."""
+    return scales(packed)[2] * packed[-1]
 
 
 @kernel
@@ -132,9 +115,11 @@ def check_sensors(readings, a, b, dt):
 
 
 @kernel
-def weigh(packed, settings, a, b, motion, place, forces, late):
+def weigh(packed, dt, a, b, motion, place, forces, late):
     """Brings forces and balance one tick on; how far the balance is from usual, in weights."""
-    share, lag = settings.dt / FILTER, int(late.lag[0])
+    _, weight, height = scales(packed)
+    damping, friction = damping_of(packed), friction_of(packed)
+    share, lag = dt / FILTER, int(late.lag[0])
     force, moment = base_pull(packed, motion[0], motion[1], motion[2])
     need = np.empty(3)
     at = 3 * ((place - lag) % (late.told.shape[1] // 3))
@@ -151,11 +136,12 @@ def weigh(packed, settings, a, b, motion, place, forces, late):
         leg, was, new_rates = leg_at(packed, k), row_of(rates, k), row_of(new, k)
         f, m, carried = leg_forces(
             leg,
-            settings,
-            k,
+            damping[k],
+            friction[k],
             row_of(q, k),
             was,
             new_rates,
+            dt,
             motion,
             told,
             load[k],
@@ -167,15 +153,15 @@ def weigh(packed, settings, a, b, motion, place, forces, late):
         believed[k] += 0.5 * (carried - believed[k])
         force, moment = add(force, f), add(moment, m)
         if load[k] == 0.0 and felt[k] == 0.0 and trusted[k] == 0.0:
-            compare(late, k, place, need, settings.weight * settings.height)
+            compare(late, k, place, need, weight * height)
     calm = forces.worst.max() <= 0.0
-    return balance(forces, force, moment, settings.weight, settings.height, share, settings.dt, calm)
+    return balance(forces, force, moment, weight, height, share, dt, calm)
 
 
 @kernel
-def judge(settings, forces, readings, b, up, gap, blind, t):
+def judge(packed, dt, forces, readings, b, up, gap, blind, t):
     """What is certain of some leg, as `look` returns it."""
-    weight, height, pace, dt = settings.weight, settings.height, settings.pace, settings.dt
+    (_, weight, height), pace = scales(packed), pace_of(packed)
     margin = MARGIN + PER_NOISE * forces.noise[0]
     lack = (
         scale(weight, (forces.lack[0] - forces.usual[0], forces.lack[1] - forces.usual[1],
@@ -250,7 +236,14 @@ class Watch:
             return sensed, memory
         row, faults = memory.row.copy(), memory.faults
         kind, leg, joint, since = look(
-            self.constants, memory.seen, now, measured.specific_force_b, memory.asked, memory.told, row
+            self.robot.packed,
+            self.dt,
+            memory.seen,
+            now,
+            measured.specific_force_b,
+            memory.asked,
+            memory.told,
+            row,
         )
         if kind != NOTHING:
             fault = fault_of(self.robot, kind, leg, joint, since, measured.time, self.dt)
@@ -280,11 +273,3 @@ class Watch:
         seen = sensed.row.copy()
         seen[-n:] = load
         return Sensed.of_row(seen, time=float(seen[0]))
-
-    @cached_property
-    def constants(self) -> Row:
-        """What the kernel reads of the robot."""
-        robot = self.robot
-        weight, height, natural = robot.measures
-        own = Settings(robot.damping, robot.friction, weight, height, height * natural, self.dt)
-        return np.concatenate([robot.packed, SETTINGS.pack(own)])
