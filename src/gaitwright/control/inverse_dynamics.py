@@ -4,7 +4,6 @@ control.md, "Base acceleration", "Swing" and "Inverse dynamics": q̈ = J⁻¹(a_
 pass of Newton and Euler gives the wrench that the feet must supply and the torques before they do.
 """
 
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -29,7 +28,7 @@ from gaitwright.numerics.geometry import (
     add,
     between,
     cross,
-    dot,
+    length,
     rotation,
     rotation_vector,
     scale,
@@ -60,8 +59,8 @@ MOST_SPIN = 20.0
 @kernel
 def clipped(a, most):
     """`a` shortened to the length `most` where it is longer."""
-    length = math.sqrt(dot(a, a))
-    return a if length <= most else scale(most / length, a)
+    size = length(a)
+    return a if size <= most else scale(most / size, a)
 
 
 @kernel

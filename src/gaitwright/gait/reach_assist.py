@@ -8,7 +8,7 @@ import math
 
 from gaitwright.gait.state import STANCE, SWING
 from gaitwright.numerics.compiled import kernel
-from gaitwright.numerics.geometry import add, dot, scale, sub, times, vec
+from gaitwright.numerics.geometry import add, length, scale, sub, times, vec
 
 STRETCHED = 0.93
 """From this share of the stretched leg on, the body helps."""
@@ -36,7 +36,7 @@ def way_to_foot(model, state, leg, rotation_d, base_p, feet_w):
 def stretched(model, leg):
     """Length of thigh and shank in a line [m]."""
     thigh, shank = vec(model.offset[leg, 1]), vec(model.offset[leg, 2])
-    return math.sqrt(dot(thigh, thigh)) + math.sqrt(dot(shank, shank))
+    return length(thigh) + length(shank)
 
 
 @kernel
@@ -48,10 +48,10 @@ def reach_assist(model, state, rotation_d, base_p, feet_w, duty, height):
         if state.mode[leg] != STANCE and state.mode[leg] != SWING:
             continue
         way = way_to_foot(model, state, leg, rotation_d, base_p, feet_w)
-        length = math.sqrt(dot(way, way))
-        over = length - STRETCHED * stretched(model, leg)
+        far = length(way)
+        over = far - STRETCHED * stretched(model, leg)
         if over > 0.0:
-            x, y, z = x + over * way[0] / length, y + over * way[1] / length, min(z, over * way[2] / length)
+            x, y, z = x + over * way[0] / far, y + over * way[1] / far, min(z, over * way[2] / far)
     aside = math.hypot(x, y)
     k = 1.0 if aside <= most else most / aside
     shift = (k * x, k * y, max(z, -MOST_DOWN * height))
@@ -69,8 +69,8 @@ def room_for(model, state, rotation_d, base_p, feet_w, shift):
             continue
         way = way_to_foot(model, state, leg, rotation_d, base_p, feet_w)
         after = sub(way, shift)
-        length, left = math.sqrt(dot(way, way)), math.sqrt(dot(after, after))
+        far, left = length(way), length(after)
         least = FOLDED * stretched(model, leg)
         if left < least:
-            share = min(share, max(0.0, (length - least) / max(length - left, 1e-9)))
+            share = min(share, max(0.0, (far - least) / max(far - left, 1e-9)))
     return share

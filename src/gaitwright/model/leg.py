@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from gaitwright.model.robot import LAYOUT
 from gaitwright.numerics.compiled import kernel
-from gaitwright.numerics.geometry import add, cross, dot, scale, sub, turn_x, turn_y, vec
+from gaitwright.numerics.geometry import add, cross, dot, length, scale, sub, turn_x, turn_y, vec
 from gaitwright.numerics.matrices import rows, rows_at, vec_at
 
 SINGULAR = 0.01
@@ -191,7 +191,7 @@ def least_volume(c1, c2, c3):
     A the area of thigh and shank there. With r the longest column (as far as the foot is from a hinge) and s
     the shank, no pose of the leg has more than r · r s.
     """
-    return SINGULAR * longest_square(c1, c2, c3) * math.sqrt(dot(c3, c3))
+    return SINGULAR * longest_square(c1, c2, c3) * length(c3)
 
 
 @kernel
@@ -201,14 +201,18 @@ def is_regular(c1, c2, c3):
 
 
 @kernel
+def bounded_volume(c1, c2, c3, n23):
+    """The volume of the columns of J, no smaller than `least_volume`; `n23`: c2 × c3 [m³]."""
+    volume, least = dot(c1, n23), least_volume(c1, c2, c3)
+    return math.copysign(least, volume) if abs(volume) < least else volume
+
+
+@kernel
 def solve_columns(c1, c2, c3, b):
     """x with J x = b, by cofactors; near a singular pose it is not exact, and bounded.
 
     Then |x₁|, |x₂| ≤ |b| / (`SINGULAR` r) and |x₃| ≤ |b| / (`SINGULAR` s), as in `least_volume`.
     """
     n23 = cross(c2, c3)
-    volume = dot(c1, n23)
-    least = least_volume(c1, c2, c3)
-    if abs(volume) < least:
-        volume = math.copysign(least, volume)
-    return scale(1.0 / volume, (dot(b, n23), dot(b, cross(c3, c1)), dot(b, cross(c1, c2))))
+    k = 1.0 / bounded_volume(c1, c2, c3, n23)
+    return scale(k, (dot(b, n23), dot(b, cross(c3, c1)), dot(b, cross(c1, c2))))

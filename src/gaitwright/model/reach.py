@@ -25,7 +25,7 @@ from gaitwright.model.leg import (
     longest_square,
 )
 from gaitwright.model.robot import Robot
-from gaitwright.numerics.geometry import cross, dot, scale, sub
+from gaitwright.numerics.geometry import cross, dot, length, scale, sub
 
 BEYOND_LIMIT = 4
 """Reach code beside those of `kinematics`: the leg is long enough, but a joint limit is in the way."""
@@ -123,7 +123,7 @@ def pose_of(robot: Robot, i: int, q: Float[np.ndarray, "3"]) -> Pose:
     _, c1, c2, c3 = foot_and_columns(turns, offset, sign)
     axis2 = hinge_axes(turns, sign)[1]
     thigh, shank = sub(c2, scale(sign, c3)), scale(sign, c3)  # each a quarter turn on about the second axis
-    long, short, r = math.sqrt(dot(thigh, thigh)), math.sqrt(dot(shank, shank)), longest_square(c1, c2, c3)
+    long, short, r = length(thigh), length(shank), longest_square(c1, c2, c3)
     aside, area = abs(dot(c1, axis2)), abs(dot(cross(thigh, shank), axis2))
     sine, straight = area / (long * short), dot(thigh, shank) > 0.0
     regular = is_regular(c1, c2, c3)

@@ -37,6 +37,12 @@ def dot(a, b):
 
 
 @kernel
+def length(a):
+    """Of a vector."""
+    return math.sqrt(dot(a, a))
+
+
+@kernel
 def cross(a, b):
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
@@ -148,7 +154,7 @@ def upright_rotation(normal, yaw):
     """
     forward = (math.cos(yaw), math.sin(yaw), 0.0)
     x = (forward[0], forward[1], -dot(forward, normal) / normal[2])
-    x = scale(1.0 / math.sqrt(dot(x, x)), x)
+    x = scale(1.0 / length(x), x)
     y = cross(normal, x)
     out = np.empty((3, 3))
     for i in range(3):

@@ -10,10 +10,10 @@ import math
 from gaitwright.dynamics.newton_euler import NO_LOAD, leg_load, link_load, links_motion
 from gaitwright.model.leg import (
     base_at,
+    bounded_volume,
     combined,
     foot_and_columns,
     hinge_axes,
-    least_volume,
     leg_turns,
 )
 from gaitwright.numerics.compiled import kernel
@@ -30,10 +30,7 @@ LOAD = 15
 def per_torque(leg, c1, c2, c3):
     """Force on the ground, base axes, per torque of each joint [1/m]; bounded where singular."""
     n1 = cross(c2, c3)
-    volume, least = dot(c1, n1), least_volume(c1, c2, c3)
-    if abs(volume) < least:
-        volume = math.copysign(least, volume)
-    k = 1.0 / volume
+    k = 1.0 / bounded_volume(c1, c2, c3, n1)
     return (
         apply(leg.frame, scale(k, n1)),
         apply(leg.frame, scale(k, cross(c3, c1))),

@@ -136,9 +136,3 @@ def repeats(same, k):
 def spin(a, b, dt):
     """Angular acceleration of the base, base axes [rad/s²]."""
     return scale(1.0 / dt, sub(vec(b.angular_velocity_b), vec(a.angular_velocity_b)))
-
-
-@kernel
-def length(a):
-    """Of a 3-vector."""
-    return math.sqrt(dot(a, a))

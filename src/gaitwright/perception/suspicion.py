@@ -9,9 +9,8 @@ shank on an edge, which none of them explains, leaves none.
 import math
 
 from gaitwright.numerics.compiled import kernel
-from gaitwright.numerics.geometry import add, cross, dot, scale, sub, vec
+from gaitwright.numerics.geometry import add, cross, dot, length, scale, sub, vec
 from gaitwright.perception.foot_forces import LOAD
-from gaitwright.perception.readings import length
 from gaitwright.perception.watch_memory import DEAD_LEG, HYPOTHESES, SENSOR, STUCK
 
 MARGIN, PER_NOISE = 0.02, 0.3

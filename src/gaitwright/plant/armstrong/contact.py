@@ -7,13 +7,12 @@ Friction is a bristle: a spring between the foot and the spot it stands on, so t
 does not creep. Its stretch `u` is the slip summed up; beyond μ N the bristle lets go and slides along.
 """
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 
 from gaitwright.numerics.compiled import kernel
-from gaitwright.numerics.geometry import add, cross, dot, scale, sub
+from gaitwright.numerics.geometry import add, cross, dot, length, scale, sub
 from gaitwright.numerics.matrices import add_row, apply, mat, put_row, row
 
 SLOTS = 3
@@ -76,7 +75,7 @@ def contact_forces(feet, planes, slip, R, hinge_at, hinge_rate, w, force, moment
                 continue
             push = max(0.0, feet.stiffness[f] * depth - feet.damping[f] * rising)
             grip = add(scale(-feet.stiffness[f], row(slip, i)), scale(-feet.damping[f], sliding))
-            most, size = feet.friction[f] * push, math.sqrt(dot(grip, grip))
+            most, size = feet.friction[f] * push, length(grip)
             if size > most:
                 grip = scale(most / size, grip)
             total = add(scale(push, normal), grip)
@@ -108,7 +107,7 @@ def let_go(feet, planes, R, hinge_at, slip):
             normal = (planes[i, 3], planes[i, 4], planes[i, 5])
             depth = feet.radius[f] - dot(normal, sub(centre, row(planes, i)))
             u = sub(row(slip, i), scale(dot(row(slip, i), normal), normal))
-            most, size = feet.friction[f] * max(0.0, depth), math.sqrt(dot(u, u))
+            most, size = feet.friction[f] * max(0.0, depth), length(u)
             if size > most:
                 u = scale(most / size, u)
             put_row(slip, i, u)
