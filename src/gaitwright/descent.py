@@ -13,7 +13,7 @@ import numpy as np
 from gaitwright.control.lowering import Lowering
 from gaitwright.locomotion import Brain, Lap, Mind, think
 from gaitwright.numerics.geometry import GRAVITY
-from gaitwright.perception.fault_words import LIES_DOWN
+from gaitwright.perception.fault_words import ends_trip
 from gaitwright.signals import Measured
 from gaitwright.skills.chooser import fixed_skill
 from gaitwright.stages import Plant
@@ -25,11 +25,6 @@ SKILL = "lie-down"
 """What a recording calls it."""
 
 
-def lies_down(lap: Lap) -> bool:
-    """Whether something is broken that nobody can walk with."""
-    return bool(lap.faults) and lap.faults[-1].answer == LIES_DOWN
-
-
 def can_descend(lap: Lap, measured: Measured) -> bool:
     """Whether there is a robot on its feet that can be let down."""
     return not lap.fell and measured.is_finite() and bool(np.isfinite(lap.command.tau).all())
@@ -37,11 +32,11 @@ def can_descend(lap: Lap, measured: Measured) -> bool:
 
 def descent(brain: Brain, plant: Plant, mind: Mind, last: Lap, measured: Measured) -> Iterator[Lap]:
     """Steps a plant until the robot lies; its laps say what the `last` one of the trip says of its end."""
-    stops = () if lies_down(last) else stopping(brain, plant, mind, last, measured)
+    stops = () if ends_trip(last.faults) else stopping(brain, plant, mind, last, measured)
     for lap, then in stops:
         last, measured = lap, then
         yield lap
-    way = Lowering(brain.robot, plant.dt, measured, last.command, limp=lies_down(last))
+    way = Lowering(brain.robot, plant.dt, measured, last.command, limp=ends_trip(last.faults))
     call, begun = replace(last.call, skill=SKILL), measured.time
     while (passed := measured.time - begun) < way.lasts and measured.is_finite():
         told = way.command(passed)
@@ -61,9 +56,9 @@ def stopping(
     while measured.time < until and measured.is_finite():
         lap, mind = think(brain, mind, measured)
         stands = lap.target.stance.all() and math.hypot(*lap.sensed.velocity_w[:2]) < slow
-        if not (stands or lies_down(lap)):
+        if not (stands or ends_trip(lap.faults)):
             measured = plant.step(lap.command)
         ending = {"stopped_because": last.stopped_because, "arrived": last.arrived, "fell": last.fell}
         yield lap._replace(took=(0.0, 0.0), **ending), measured
-        if stands or lies_down(lap):
+        if stands or ends_trip(lap.faults):
             return

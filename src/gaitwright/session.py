@@ -11,12 +11,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gaitwright.control.numerical import idle
-from gaitwright.descent import can_descend, descent, lies_down
+from gaitwright.descent import can_descend, descent
 from gaitwright.errors import NoRoom, WrongUse, is_interrupt
 from gaitwright.ground.scene import Scene
 from gaitwright.locomotion import Brain, Lap, Mind, think
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import heading, rotation
+from gaitwright.perception.fault_words import ends_trip
 from gaitwright.perception.known_ground import KnownGround
 from gaitwright.record.recording import Recorder, Recording
 from gaitwright.record.scene_of import scene_for, scene_scale  # noqa: F401 - found here by all who set up runs
@@ -114,7 +115,7 @@ class Session:
         else:
             lap, self.mind = think(self.brain, self.mind, self.measured)
             ending = self.termination.judge(lap.sensed, lap.route, lap.call, lap.target, lap.command)
-            if lies_down(lap) and not (ending and ending.fell):
+            if ends_trip(lap.faults) and not (ending and ending.fell):
                 ending = Ending(lap.faults[-1].sentence)
             self.lap = ended(lap, ending) if ending else lap
         if not self.is_over:

@@ -294,6 +294,15 @@ class MotorCommand(Packed):
             tau = tau + self.kd * ((0.0 if self.qd is None else self.qd) - qd)
         return tau
 
+    def given(
+        self,
+        q: Float[np.ndarray, "legs 3"],
+        qd: Float[np.ndarray, "legs 3"],
+        tau_max: Float[np.ndarray, "legs 3"],
+    ) -> Float[np.ndarray, "legs 3"]:
+        """What the motors give where the joints are [N·m], within their limits."""
+        return np.clip(self.torques(q, qd), -tau_max, tau_max)
+
 
 Torques = MotorCommand
 """The name of a motor command before motors could be told more than a torque."""

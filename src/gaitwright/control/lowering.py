@@ -9,9 +9,8 @@ import numpy as np
 from jaxtyping import Float
 
 from gaitwright.control.servo import STIFF
-from gaitwright.dynamics.joint_inertia import joint_inertias
+from gaitwright.dynamics.joint_inertia import all_joint_inertias
 from gaitwright.model.kinematics import angles
-from gaitwright.model.leg import leg_at, leg_turns
 from gaitwright.model.robot import Robot
 from gaitwright.signals import MotorCommand, Sensed
 
@@ -44,7 +43,7 @@ class Lowering:
         size = float(np.sqrt(height / 0.29))
         self.folds, self.rests = (LIMP * size, 0.0) if limp else (FOLDS * size, RESTS * size)
         stiffness, damping = STIFF.stiffness * weight * height, STIFF.damping * weight * height / natural
-        inertia = inertias(robot, sensed.q)
+        inertia = all_joint_inertias(robot, sensed.q)
         self.stiffness = np.minimum(stiffness, BEARABLE[0] * inertia / dt**2)
         damping = DAMPING * weight * height / natural if limp else damping
         self.damping = np.minimum(damping, BEARABLE[1] * inertia / dt)
@@ -75,7 +74,7 @@ class Lowering:
 
     def given(self, told: MotorCommand, sensed: Sensed) -> MotorCommand:
         """The command as a recording keeps it: with the torques that come of it."""
-        tau = np.clip(told.torques(sensed.q, sensed.qd), -self.robot.tau_max, self.robot.tau_max)
+        tau = told.given(sensed.q, sensed.qd, self.robot.tau_max)
         return MotorCommand(tau, told.forces_w, 0.0, told.status)
 
 
@@ -89,9 +88,3 @@ def crouch(robot: Robot) -> Float[np.ndarray, "legs 3"]:
         if np.all(reached) and ((q >= robot.q_min + SPARE) & (q <= robot.q_max - SPARE)).all():
             return q
     return angles(robot, robot.nominal_feet)[0]
-
-
-def inertias(robot: Robot, q: Float[np.ndarray, "legs 3"]) -> Float[np.ndarray, "legs 3"]:
-    """Inertia at each joint [kg·m²]."""
-    legs = [leg_at(robot.packed, k) for k in range(robot.n)]
-    return np.array([joint_inertias(leg, leg_turns(q[k], leg.sign)) for k, leg in enumerate(legs)])

@@ -3,6 +3,11 @@
 The diagonal of a leg's mass matrix with the base held: how stiff a joint may be follows from it.
 """
 
+import numpy as np
+from jaxtyping import Float
+
+from gaitwright.model.leg import leg_at, leg_turns
+from gaitwright.model.robot import Robot
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import add, dot, turn_y
 from gaitwright.numerics.matrices import apply
@@ -34,3 +39,9 @@ def joint_inertias(leg, turns):
     second = about_y(mass[1], com[1], inertia[1]) + about_y(mass[2], third, inertia[2])
     last = about_y(mass[2], com[2], inertia[2])
     return first + leg.armature[0], second + leg.armature[1], last + leg.armature[2]
+
+
+def all_joint_inertias(robot: Robot, q: Float[np.ndarray, "legs 3"]) -> Float[np.ndarray, "legs 3"]:
+    """`joint_inertias` of every leg at joint angles `q` [kg·m²]."""
+    legs = [leg_at(robot.packed, k) for k in range(robot.n)]
+    return np.array([joint_inertias(leg, leg_turns(q[k], leg.sign)) for k, leg in enumerate(legs)])

@@ -76,6 +76,11 @@ LEG_WORDS = {
 """Legs by the names that files of robots have for them."""
 
 
+def ends_trip(faults: tuple[Fault, ...]) -> bool:
+    """Whether something is broken that nobody can walk with; nothing is looked for after it."""
+    return bool(faults) and faults[-1].answer == LIES_DOWN
+
+
 def fault_of(robot: Robot, kind: int, leg: int, joint: int, since: float, noticed: float, dt: float) -> Fault:
     """What the watch found, with its sentence; where it found readings late, `joint` is by how many ticks."""
     name = KINDS[kind]

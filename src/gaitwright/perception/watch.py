@@ -15,7 +15,7 @@ from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import GRAVITY, add, rotation, scale, vec
 from gaitwright.numerics.matrices import row as row_of
 from gaitwright.numerics.packing import Row
-from gaitwright.perception.fault_words import FOOT_FAULTS, LIES_DOWN, Fault, fault_of
+from gaitwright.perception.fault_words import FOOT_FAULTS, Fault, ends_trip, fault_of
 from gaitwright.perception.foot_forces import LOAD, balance, base_motion, base_pull, leg_forces
 from gaitwright.perception.lateness import compare, new_lag, remember
 from gaitwright.perception.readings import (
@@ -231,8 +231,7 @@ class Watch:
         now = measured.row
         if memory is None:
             return sensed, WatchMemory(np.zeros(size_of(self.robot.n)), now)
-        over = bool(memory.faults) and memory.faults[-1].answer == LIES_DOWN
-        if over or memory.told is None:
+        if ends_trip(memory.faults) or memory.told is None:
             return sensed, memory
         row, faults = memory.row.copy(), memory.faults
         kind, leg, joint, since = look(
@@ -258,8 +257,7 @@ class Watch:
         """The memory with what was asked and told in this tick."""
         told = command.row
         if command.kp is not None or command.kd is not None:
-            tau = command.torques(sensed.q, sensed.qd)
-            told = np.clip(tau, -self.robot.tau_max, self.robot.tau_max).ravel()
+            told = command.given(sensed.q, sensed.qd, self.robot.tau_max).ravel()
         return WatchMemory(memory.row, memory.seen, memory.faults, target.row, told)
 
     def believed(self, sensed: Sensed, row: Row, faults: tuple[Fault, ...]) -> Sensed:

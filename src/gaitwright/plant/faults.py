@@ -12,10 +12,9 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.dynamics.joint_inertia import joint_inertias
+from gaitwright.dynamics.joint_inertia import all_joint_inertias
 from gaitwright.errors import WrongUse, unknown
 from gaitwright.ground.scene import Scene
-from gaitwright.model.leg import leg_at, leg_turns
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, quaternion_of, rotation
 from gaitwright.plant.names import FAULTS, JOINTS, OF_A_JOINT, OF_A_LEG
@@ -48,6 +47,11 @@ class Breakdown:
     """Where the kind names one."""
     at: float = 0.0
     """[s]"""
+
+    def names(self, robot: Robot) -> tuple[str, str | None, str | None]:
+        """Kind, leg and joint as a person calls them."""
+        leg = None if self.leg is None else robot.legs[self.leg]
+        return self.kind, leg, None if self.joint is None else JOINTS[self.joint]
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,8 +172,7 @@ class FaultyPlant:
     def held(self, command: MotorCommand, one: Breakdown) -> MotorCommand:
         """A joint that is held where it stuck, with all the torque that its motor has."""
         where, q = (one.leg, one.joint), self.kept.setdefault(one, self.truth.q)
-        leg = leg_at(self.robot.packed, one.leg)
-        inertia = joint_inertias(leg, leg_turns(q[one.leg], leg.sign))[one.joint]
+        inertia = all_joint_inertias(self.robot, q)[where]
         gains = filled_gains(command, self.truth)
         gains["q"][where], gains["qd"][where] = q[where], 0.0
         gains["kp"][where] = HELD[0] * inertia / self.dt**2
@@ -186,9 +189,8 @@ class FaultyPlant:
         """Whether motors give torques that are clearly others than they were told."""
         if told is given:
             return False
-        at = self.truth.q, self.truth.qd
-        limit = self.robot.tau_max
-        both = [np.clip(command.torques(*at), -limit, limit) for command in (told, given)]
+        at, limit = (self.truth.q, self.truth.qd), self.robot.tau_max
+        both = [command.given(*at, limit) for command in (told, given)]
         return bool((np.abs(both[1] - both[0]) > SHOWS[0] * limit).any())
 
     # --- sensors -------------------------------------------------------------------------------------

@@ -53,7 +53,7 @@ class Report:
     state_hash: str
     """SHA-256 of every sensed state and torque: equal for equal seeds on one machine."""
     faults: list[dict[str, Any]] = field(default_factory=list)
-    """What was noticed to be broken: the fields of each `signals.Fault`."""
+    """What was noticed to be broken: the fields of each `perception.fault_words.Fault`."""
 
     def to_json(self) -> str:
         """As JSON; everything but `tick_us` is the same for the same seed."""

@@ -97,10 +97,8 @@ def delay(trial: Trial, outcome: Outcome) -> float | None:
     """From when a fault showed until it was named [s]; `None` where it was not, or as something else."""
     if not outcome.report.faults or not outcome.seen:
         return None
-    told, one, robot = outcome.report.faults[0], trial.faults[0], robot_named(trial.robot)
-    leg = None if one.leg is None else robot.legs[one.leg]
-    joint = None if one.joint is None else JOINTS[one.joint]
-    if (told["kind"], told["leg"], told["joint"]) != (one.kind, leg, joint):
+    told, broken = outcome.report.faults[0], trial.faults[0].names(robot_named(trial.robot))
+    if (told["kind"], told["leg"], told["joint"]) != broken:
         return None
     return max(0.0, told["noticed"] - outcome.seen.shown[0])
 
@@ -112,11 +110,10 @@ def is_safe(outcome: Outcome) -> bool:
 
 def missed(trial: Trial, outcome: Outcome) -> str:
     """What was broken, and what was said."""
-    one, legs = trial.faults[0], robot_named(trial.robot).legs
-    parts = [one.kind, *([legs[one.leg]] if one.leg is not None else [])]
-    parts += [JOINTS[one.joint]] if one.joint is not None else []
+    one = trial.faults[0]
+    broken = ":".join(filter(None, one.names(robot_named(trial.robot))))
     told = outcome.report.faults[0]["sentence"] if outcome.report.faults else outcome.report.stopped_because
-    return f"seed {trial.seed}, {':'.join(parts)}@{one.at:.2f}: {told}"
+    return f"seed {trial.seed}, {broken}@{one.at:.2f}: {told}"
 
 
 def why(outcome: Outcome) -> str:
