@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from random_books import is_below, parent, random_book, random_forest, random_situation
 
 from gaitwright.errors import WrongUse
+from gaitwright.knowledge.correction import teach
 from gaitwright.knowledge.discriminate import discriminate, grey_trees
 from gaitwright.knowledge.forest import Forest
 from gaitwright.knowledge.generalise import generalise
@@ -172,3 +173,5 @@ def test_mistakes_of_the_caller_are_named():
     other = Forest((LIGHT,)).situation({"light": "day"})
     with pytest.raises(WrongUse, match="the lesson is about"):
         learn(book, Lesson("positive", "trot", other))
+    with pytest.raises(WrongUse, match="the lesson is about"):
+        teach(book, Lesson("omission", "trot", other))

@@ -140,7 +140,7 @@ def simulate(trial: Trial) -> Outcome:
     kept_up = recording.done and not recording.fell
     seen = plant.seen(whole.shown, whole.asked) if isinstance(whole, FaultyPlant) else None
     limits = beyond_limits(recording)
-    return Outcome(kept_up, off, held(recording), limits, recording.report(), cpu, wall, seen)
+    return Outcome(kept_up, off, held(recording.of_trip()), limits, recording.report(), cpu, wall, seen)
 
 
 def held(recording: Recording) -> float:

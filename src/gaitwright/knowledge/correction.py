@@ -6,7 +6,7 @@ from dataclasses import replace
 from gaitwright.errors import WrongUse
 from gaitwright.knowledge.consult import consult
 from gaitwright.knowledge.forest import Situation
-from gaitwright.knowledge.modifier import Learned, Lesson, learn
+from gaitwright.knowledge.modifier import Learned, Lesson, check_about, learn
 from gaitwright.knowledge.rules import Event, Preference, Rule, Rulebook
 
 
@@ -21,6 +21,7 @@ def teach(rulebook: Rulebook, lesson: Lesson) -> Learned:
     """
     if not lesson.rule:
         raise WrongUse("a correction names the rule that should have fired")
+    check_about(rulebook, lesson)
     lesson = replace(lesson, id=lesson.id or f"lesson {rulebook.lessons + 1}")
     kin = same_action(rulebook, lesson.rule)
     now = consult(rulebook, lesson.situation)

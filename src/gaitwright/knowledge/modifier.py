@@ -59,11 +59,7 @@ class Learned:
 def learn(rulebook: Rulebook, lesson: Lesson) -> Learned:
     """One lesson for one rule. Raises `WrongUse` for a rule that does not exist and comes without an
     action."""
-    if lesson.situation.trees != rulebook.forest.names:
-        raise WrongUse(
-            f"the lesson is about {list(lesson.situation.trees)}, "
-            f"the rules about {list(rulebook.forest.names)}"
-        )
+    check_about(rulebook, lesson)
     lesson_id = lesson.id or f"lesson {rulebook.lessons + 1}"
     instance = Instance(lesson_id, lesson.kind, lesson.situation, lesson.raw, lesson.note)
     blame = rulebook.forest[lesson.blame].name if lesson.blame else ""
@@ -76,6 +72,15 @@ def learn(rulebook: Rulebook, lesson: Lesson) -> Learned:
     quiet = 0 if moved else rule.quiet + 1
     fitted = replace(fitted, quiet=quiet, proposed=rule.proposed and not instance.speaks_for)
     return closed(made, fitted, events + moved)
+
+
+def check_about(rulebook: Rulebook, lesson: Lesson) -> None:
+    """Raises `WrongUse` for a lesson in other trees than the rules are about."""
+    if lesson.situation.trees != rulebook.forest.names:
+        raise WrongUse(
+            f"the lesson is about {list(lesson.situation.trees)}, "
+            f"the rules about {list(rulebook.forest.names)}"
+        )
 
 
 def closed(rulebook: Rulebook, rule: Rule, events: tuple[Event, ...]) -> Learned:
