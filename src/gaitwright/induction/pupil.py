@@ -1,0 +1,176 @@
+"""Who is taught: lesson by lesson, cases in and an ordered list of rules out (thesis 5.4.2, 6.7)."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from gaitwright.induction.cases import NOBODY, Cases, no_cases, with_case
+from gaitwright.induction.columns import Vocabulary
+from gaitwright.induction.decision_list import Lines, actions_of, fired
+from gaitwright.induction.marks import settled
+from gaitwright.induction.repair import bits_of, repaired
+from gaitwright.induction.revision import begun, revised, sample
+from gaitwright.induction.standing import Standing, standing_of, upper_marks
+
+SHORTER = 2.0
+"""Bits that a revision must save to be adopted."""
+EACH_LESSON, EACH_MISTAKE, DRAFT = 2, 5, 4
+"""Rounds of search on the list after a lesson that was known, after one that was not, and on the draft."""
+RIPE = 40
+"""Rounds after which a draft is compared with the list."""
+RIVALS, FAR = 6, 40.0
+"""Other lists that are kept, and how many bits longer than the best they may be."""
+LOSS, REGAIN, LEAST = 0.7, 1.0 / 0.7, 0.05
+"""What a sure decision that proves wrong does to the weight of all that spoke for it, what each right one
+gives back, and the least that is left."""
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """What the list does in a case: the action, the place of the rule, and whether that is sure."""
+
+    action: int
+    rule: int
+    sure: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Lesson:
+    """One case taught: a row of columns, what is right, the place of the fact that decided, the scene's."""
+
+    row: Float[np.ndarray, " columns"]
+    action: int
+    reason: int = NOBODY
+    scene: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Heard:
+    """What one lesson did: the list before and after, what was decided before, how that was repaired ("": it
+    was not), whether the list was revised, and the cases that are set aside now."""
+
+    before: Lines
+    after: Lines
+    verdict: Verdict
+    how: str = ""
+    revised: bool = False
+    aside: tuple[int, ...] = ()
+
+
+@dataclass
+class Pupil:
+    """All that was taught, and the list that says it. The same lessons and seed, the same list."""
+
+    vocabulary: Vocabulary
+    seed: int = 0
+    lines: Lines = field(default_factory=Lines)
+    rivals: list[Lines] = field(default_factory=list)
+    draft: Lines | None = None
+    age: int = 0
+    """Rounds of search that the draft has had."""
+    drafts: int = 0
+    cases: Cases = field(init=False)
+    scene: Int[np.ndarray, " cases"] = field(init=False)
+    standing: Standing = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.cases = no_cases(self.vocabulary.reads, self.vocabulary.price)
+        self.scene = np.zeros(0, np.int64)
+        self.standing = standing_of(self.lines, self.cases, self.scene)
+
+    # --- deciding ----------------------------------------------------------------------------------
+    def decide(self, row: Float[np.ndarray, " columns"]) -> Verdict:
+        """What the list does in a case; nothing before the first lesson."""
+        if not self.cases.n:
+            return Verdict(NOBODY, 0, False)
+        actions, rules, sure = self.decide_all(row[:, None])
+        return Verdict(int(actions[0]), int(rules[0]), bool(sure[0]))
+
+    def decide_all(
+        self, x: Float[np.ndarray, "columns asked"]
+    ) -> tuple[Int[np.ndarray, " asked"], Int[np.ndarray, " asked"], Bool[np.ndarray, " asked"]]:
+        """Action, place of the rule, and sureness for many cases.
+
+        Sure is what lies among the cases at which a firm rule was right, in every plain column, where no
+        earlier rule could be meant as well, and every rival does the same.
+        """
+        rules = fired(self.lines, x)
+        actions = actions_of(self.lines, rules)
+        plain = self.vocabulary.plain
+        sure = self.standing.firm[rules] & self.standing.holds(rules, x[plain], plain)
+        if sure.any():
+            sure &= fired(self.widest, x) >= rules
+        for rival in self.rivals:
+            sure &= actions_of(rival, fired(rival, x)) == actions
+        return actions, rules, sure
+
+    @property
+    def widest(self) -> Lines:
+        """The list as wide as nothing forbids."""
+        return upper_marks(self.lines, self.cases, self.standing.fire)
+
+    # --- learning ----------------------------------------------------------------------------------
+    def hear(self, lesson: Lesson) -> Heard:
+        """Takes one lesson in: what was right stands firmer, what was wrong is repaired, and then there is
+        some search for a shorter list."""
+        before, verdict = self.lines, self.decide(lesson.row)
+        self.cases = with_case(self.cases, lesson.row, lesson.action, lesson.reason)
+        self.scene = np.append(self.scene, lesson.scene)
+        is_right = verdict.action == lesson.action
+        self.standing.take_in(self.cases, lesson.scene, verdict.rule, is_right)
+        self.trust(verdict, is_right)
+        how = ""
+        if not is_right:
+            self.lines, how = repaired(self.lines, self.cases, self.cases.n - 1)
+        was_revised = self.revise(EACH_LESSON if is_right else EACH_MISTAKE)
+        if self.lines != before:
+            self.lines = settled(self.lines, self.cases, self.vocabulary.known)
+            self.standing = standing_of(self.lines, self.cases, self.scene)
+        return Heard(before, self.lines, verdict, how, was_revised, tuple(self.standing.aside.tolist()))
+
+    def trust(self, verdict: Verdict, is_right: bool) -> None:
+        """Weighs anew what spoke for a decision: a sure one that is contradicted loses, a right one regains.
+
+        After some contradictions in a row the old mind weighs little, and a slip is soon forgotten.
+        """
+        if not is_right and not verdict.sure:
+            return
+        mine = (self.standing.fire == verdict.rule) & (self.cases.action == verdict.action)
+        mine[-1] = False
+        factor = REGAIN if is_right else LOSS
+        weight = np.where(mine, np.clip(self.cases.weight * factor, LEAST, 1.0), self.cases.weight)
+        self.cases = self.cases._replace(weight=weight)
+
+    def revise(self, rounds: int) -> bool:
+        """Searches on, from the list and from a draft of another; whether a shorter one was adopted."""
+        seed = self.seed * 1_000_003 + self.cases.n
+        wrong = np.flatnonzero(actions_of(self.lines, fired(self.lines, self.cases.x)) != self.cases.action)
+        some = sample(self.cases, wrong, seed)
+        found = [revised(self.lines, some, rounds, seed)[0]]
+        if self.draft is None:
+            self.draft, self.age = begun(some, self.drafts, 0, seed)[0], 0
+            self.drafts += 1
+        else:
+            self.draft, self.age = revised(self.draft, some, DRAFT, seed)[0], self.age + DRAFT
+        if self.age >= RIPE or self.cases.n < RIPE:
+            found.append(self.draft)
+            self.draft = None
+        return self.adopt([lines for lines in found if lines != self.lines])
+
+    def adopt(self, found: Sequence[Lines]) -> bool:
+        """Takes the shortest list for the pupil's own, where it is shorter enough; the others are rivals."""
+        if not found:
+            return False
+        now, old = bits_of(self.lines, self.cases), self.lines
+        weighed = [(bits_of(lines, self.cases), k, lines) for k, lines in enumerate(found)]
+        least, _, best = min(weighed)
+        if least < now - SHORTER:
+            self.lines, now = best, least
+        others = dict.fromkeys([*self.rivals, *found, old])
+        near = [
+            (bits_of(lines, self.cases), k, lines) for k, lines in enumerate(others) if lines != self.lines
+        ]
+        self.rivals = [lines for bits, _, lines in sorted(near[:]) if bits <= now + FAR][:RIVALS]
+        return self.lines != old
