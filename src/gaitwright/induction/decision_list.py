@@ -16,7 +16,7 @@ ROOM = 8
 
 
 class DecisionList(NamedTuple):
-    """Rules in order; kernels change it in place. Condition k of rule r: low < x[column] ≤ high.
+    """Rules in order; kernels change it in place. Condition k of rule r: low ≤ x[column] < high.
 
     `action[n]`, behind the n rules, is what is done where none of them fires.
     """
@@ -31,7 +31,7 @@ class DecisionList(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Bound:
-    """One condition: low < column ≤ high, infinite where it is open."""
+    """One condition: low ≤ column < high, infinite where it is open."""
 
     column: int
     low: float
@@ -110,7 +110,7 @@ def match(x, rules, r, holds):
     for j in range(rules.conditions[r]):
         values, low, high = x[rules.column[r, j]], rules.low[r, j], rules.high[r, j]
         for i in range(len(holds)):
-            if not low < values[i] <= high:
+            if not low <= values[i] < high:
                 holds[i] = False
 
 

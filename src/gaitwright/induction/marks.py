@@ -59,7 +59,7 @@ def gap_of(rule: RuleLine, j: int, r: int, cases: Cases, fire: np.ndarray, side:
     if not np.isfinite(bound.high if side > 0 else bound.low):
         return None
     inside = np.flatnonzero(fire == r)
-    beyond = x > bound.high if side > 0 else x <= bound.low
+    beyond = x >= bound.high if side > 0 else x < bound.low
     out = np.flatnonzero(beyond & (fire > r) & (cases.action != rule.action) & all_but(rule, j, cases.x))
     if not len(inside) or not len(out):
         return None
@@ -73,20 +73,20 @@ def all_but(rule: RuleLine, j: int, x: Float[np.ndarray, "columns cases"]) -> Bo
     holds = np.ones(x.shape[1], np.bool_)
     for k, bound in enumerate(rule.bounds):
         if k != j:
-            holds &= (x[bound.column] > bound.low) & (x[bound.column] <= bound.high)
+            holds &= (x[bound.column] >= bound.low) & (x[bound.column] < bound.high)
     return holds
 
 
 def cut_in(low: float, high: float, known: Sequence[float] = ()) -> float:
-    """A number with low ≤ cut < high: a known one, else the one of fewest digits in the middle, else the
+    """A number with low < cut ≤ high: a known one, else the one of fewest digits in the middle, else the
     middle itself."""
     for cut in known:
-        if low < cut < high:
+        if low < cut <= high:
             return float(cut)
     edge = 0.5 * (1.0 - MIDDLE) * (high - low)
     middle = low + 0.5 * (high - low)
     for digits in range(-6, MOST_DIGITS):
         cut = round(middle, digits)
-        if low + edge <= cut <= high - edge and low <= cut < high:
+        if low + edge <= cut <= high - edge and low < cut <= high:
             return cut
-    return middle if middle < high else low
+    return middle if middle > low else high

@@ -23,6 +23,7 @@ from gaitwright.induction.decision_list import (
 from gaitwright.induction.grow import grow
 from gaitwright.induction.length import WRONG, bits_as_it_is, bound_bits, name_bits
 from gaitwright.induction.marks import with_rule
+from gaitwright.induction.scan import between
 from gaitwright.induction.search import PLAIN, WIDTH
 
 NARROWINGS = 3
@@ -89,8 +90,8 @@ def widened(rule: RuleLine, row: Float[np.ndarray, " columns"]) -> RuleLine:
     bounds = tuple(
         Bound(
             bound.column,
-            min(bound.low, float(np.nextafter(row[bound.column], -np.inf))),
-            max(bound.high, float(row[bound.column])),
+            min(bound.low, float(row[bound.column])),
+            max(bound.high, float(np.nextafter(row[bound.column], np.inf))),
         )
         for bound in rule.bounds
     )
@@ -149,7 +150,7 @@ def cuts(
     best = costs.argmin(axis=1)
     for c in np.flatnonzero(np.isfinite(costs[np.arange(len(costs)), best])).tolist():
         k = int(best[c])
-        yield float(costs[c, k]), c, side, 0.5 * float(low[c, k] + high[c, k])
+        yield float(costs[c, k]), c, side, float(between(low[c, k], high[c, k]))
 
 
 def bounded(rule: RuleLine, column: int, side: int, cut: float) -> RuleLine:

@@ -75,9 +75,9 @@ def scan_column(cases, c, active, gain, loss, first, beyond, price, state):
 
 @kernel
 def between(low, high):
-    """A number that keeps two neighbours apart, `low` below or at it."""
+    """A number that keeps two neighbours apart: the lower one below it, the upper one not."""
     cut = 0.5 * (low + high)
-    return cut if cut < high else low
+    return cut if cut > low else high
 
 
 @kernel

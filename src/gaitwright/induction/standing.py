@@ -79,8 +79,8 @@ def upper_marks(lines: Lines, cases: Cases, fire: Int[np.ndarray, " cases"]) -> 
         bounds = []
         for j, bound in enumerate(rule.bounds):
             upper, lower = (gap_of(rule, j, r, cases, fire, side) for side in (1, -1))
-            low = lower.outer if lower else bound.low
-            high = float(np.nextafter(upper.outer, -np.inf)) if upper else bound.high
+            low = float(np.nextafter(lower.outer, np.inf)) if lower else bound.low
+            high = upper.outer if upper else bound.high
             bounds.append(type(bound)(bound.column, low, high))
         rules.append(type(rule)(rule.action, tuple(bounds)))
     return Lines(tuple(rules), lines.otherwise)

@@ -13,6 +13,7 @@ from gaitwright.induction.decision_list import (
     room_for,
 )
 from gaitwright.induction.grow import grow
+from gaitwright.induction.scan import between
 from gaitwright.numerics.compiled import kernel
 
 STRICT = np.array([8.0, 1.5])
@@ -95,7 +96,7 @@ def from_tree(cases, rules, holds, least_gain, use, fire):
             c, cut = best_cut(cases, active, counts, least_gain, use)
         if c >= 0 and cut_node(nodes, k, made, c, cut):
             for i in range(size):
-                if node[i] == k and not cases.x[c, i] <= cut:
+                if node[i] == k and not cases.x[c, i] < cut:
                     node[i] = made
             waiting[last + 1], waiting[last + 2] = k, made
             last, made = last + 2, made + 1
@@ -167,9 +168,7 @@ def best_cut(cases, active, counts, least_gain, use):
             if begun and x[i] != last:
                 saved = whole - entropy_bits(below, weight) - entropy_bits(above, total - weight) - price
                 if saved > best:
-                    best, column, at = saved, c, 0.5 * (last + x[i])
-                    if at >= x[i]:
-                        at = last
+                    best, column, at = saved, c, between(last, x[i])
             below[cases.action[i]] += cases.weight[i]
             above[cases.action[i]] -= cases.weight[i]
             weight, last, begun = weight + cases.weight[i], x[i], True
