@@ -11,7 +11,8 @@ from random_books import children, is_below, parent, random_forest, random_tree
 from gaitwright.errors import WrongUse
 from gaitwright.knowledge.forest import Forest, replace_value
 from gaitwright.knowledge.memory import Action, applied, remembered
-from gaitwright.knowledge.trees import MAX_DEPTH, FeatureTree, interval_tree, nest, regrouped, tree
+from gaitwright.knowledge.tree_checks import MAX_DEPTH
+from gaitwright.knowledge.trees import FeatureTree, interval_tree, nest, regrouped, tree
 
 TERRAIN = tree("terrain", {"even": ("flat", "slippery"), "slope": ("uphill", "downhill"), "stairs": ()})
 SPEED = interval_tree("speed", "m/s", (0.5, 1.0, 2.0), ("slow", "medium", "fast", "very fast"))

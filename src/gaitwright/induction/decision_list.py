@@ -68,28 +68,23 @@ def as_arrays(lines: Lines, room: int = ROOM) -> tuple[DecisionList, int]:
 
 def as_lines(rules: DecisionList, n: int) -> Lines:
     """The list as a plain value."""
-    return Lines(
-        tuple(
-            RuleLine(
-                int(rules.action[k]),
-                tuple(
-                    Bound(int(rules.column[k, j]), float(rules.low[k, j]), float(rules.high[k, j]))
-                    for j in range(rules.conditions[k])
-                ),
-            )
-            for k in range(n)
-        ),
-        int(rules.action[n]),
+    return Lines(tuple(line_of(rules, k) for k in range(n)), int(rules.action[n]))
+
+
+def line_of(rules: DecisionList, k: int) -> RuleLine:
+    """One rule as a plain value."""
+    bounds = (
+        Bound(int(rules.column[k, j]), float(rules.low[k, j]), float(rules.high[k, j]))
+        for j in range(rules.conditions[k])
     )
+    return RuleLine(int(rules.action[k]), tuple(bounds))
 
 
 def fired(lines: Lines, x: Float[np.ndarray, "columns cases"]) -> Int[np.ndarray, " cases"]:
     """The place of the rule that decides each case; behind all of them where none fires."""
     rules, n = as_arrays(lines, 0)
-    holds = np.empty((n + 1, x.shape[1]), np.bool_)
     fire = np.empty(x.shape[1], np.int64)
-    match_all(np.ascontiguousarray(x), rules, n, holds)
-    first_that_holds(holds, n, NONE, fire)
+    fire_all(np.ascontiguousarray(x), rules, n, fire)
     return fire
 
 
@@ -101,6 +96,17 @@ def actions_of(lines: Lines, places: Int[np.ndarray, " cases"]) -> Int[np.ndarra
 # --- kernels ---------------------------------------------------------------------------------------
 NONE = -1
 """No rule is left out."""
+
+
+@kernel
+def fire_all(x, rules, n, fire):
+    """The first rule that holds, case by case, into `fire`; n where none does."""
+    fire[:] = n
+    holds = np.empty(len(fire), np.bool_)
+    for r in range(n - 1, -1, -1):
+        match(x, rules, r, holds)
+        for i in range(len(fire)):
+            fire[i] = r if holds[i] else fire[i]
 
 
 @kernel

@@ -28,14 +28,16 @@ class Gap:
     outer_case: int
 
 
-def settled(lines: Lines, cases: Cases, known: Sequence[Sequence[float]]) -> Lines:
-    """The list with each cut where a person would put it, deciding all cases as before.
+def settled(lines: Lines, cases: Cases, known: Sequence[Sequence[float]], before: Lines) -> Lines:
+    """The list with each cut where a person would put it, deciding all cases as it does.
 
     `known` are the bounds that have a name, per column: one that lies in the gap is taken, else the number
-    of fewest digits in its middle.
+    of fewest digits in its middle. Rules that were so before keep their cuts.
     """
-    fire = fired(lines, cases.x)
+    fire, kept = fired(lines, cases.x), set(before.rules)
     for r, rule in enumerate(lines.rules):
+        if rule in kept:
+            continue
         bounds = []
         for j, bound in enumerate(rule.bounds):
             upper, lower = (gap_of(rule, j, r, cases, fire, side) for side in (1, -1))

@@ -8,7 +8,7 @@ from gaitwright.induction.starts import set_otherwise
 from gaitwright.numerics.compiled import kernel
 
 ENOUGH = 1e-9
-WORK = 4e6
+WORK = 1.5e6
 """Looks at one rule in one case that a round may take, about; where a list is longer, chance picks what is
 tried."""
 

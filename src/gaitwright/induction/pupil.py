@@ -11,7 +11,7 @@ from gaitwright.induction.columns import Vocabulary
 from gaitwright.induction.decision_list import Lines, actions_of, fired
 from gaitwright.induction.marks import settled
 from gaitwright.induction.repair import bits_of, repaired
-from gaitwright.induction.revision import begun, revised, sample
+from gaitwright.induction.revision import FEW, begun, revised, sample
 from gaitwright.induction.standing import Standing, standing_of, upper_marks
 
 SHORTER = 2.0
@@ -74,6 +74,7 @@ class Pupil:
     cases: Cases = field(init=False)
     scene: Int[np.ndarray, " cases"] = field(init=False)
     standing: Standing = field(init=False)
+    _widest: Lines | None = field(default=None, init=False, repr=False)
 
     def __post_init__(self) -> None:
         self.cases = no_cases(self.vocabulary.reads, self.vocabulary.price)
@@ -108,14 +109,17 @@ class Pupil:
 
     @property
     def widest(self) -> Lines:
-        """The list as wide as nothing forbids."""
-        return upper_marks(self.lines, self.cases, self.standing.fire)
+        """The list as wide as no case forbids."""
+        if self._widest is None:
+            self._widest = upper_marks(self.lines, self.cases, self.standing.fire)
+        return self._widest
 
     # --- learning ----------------------------------------------------------------------------------
     def hear(self, lesson: Lesson) -> Heard:
         """Takes one lesson in: what was right stands firmer, what was wrong is repaired, and then there is
         some search for a shorter list."""
         before, verdict = self.lines, self.decide(lesson.row)
+        self._widest = None
         self.cases = with_case(self.cases, lesson.row, lesson.action, lesson.reason)
         self.scene = np.append(self.scene, lesson.scene)
         is_right = verdict.action == lesson.action
@@ -126,7 +130,7 @@ class Pupil:
             self.lines, how = repaired(self.lines, self.cases, self.cases.n - 1)
         was_revised = self.revise(EACH_LESSON if is_right else EACH_MISTAKE)
         if self.lines != before:
-            self.lines = settled(self.lines, self.cases, self.vocabulary.known)
+            self.lines = settled(self.lines, self.cases, self.vocabulary.known, before)
             self.standing = standing_of(self.lines, self.cases, self.scene)
         return Heard(before, self.lines, verdict, how, was_revised, tuple(self.standing.aside.tolist()))
 
@@ -147,10 +151,12 @@ class Pupil:
         """Searches on, from the list and from a draft of another; whether a shorter one was adopted."""
         seed = self.seed * 1_000_003 + self.cases.n
         wrong = np.flatnonzero(actions_of(self.lines, fired(self.lines, self.cases.x)) != self.cases.action)
-        some = sample(self.cases, wrong, seed)
-        found = [revised(self.lines, some, rounds, seed)[0]]
+        some = sample(self.cases, wrong, len(self.lines.rules), seed)
+        better, saved = revised(self.lines, some, rounds, seed)
+        found = [better] if saved > SHORTER else []
         if self.draft is None:
-            self.draft, self.age = begun(some, self.drafts, 0, seed)[0], 0
+            few = sample(self.cases, wrong, len(self.lines.rules), seed, FEW)
+            self.draft, self.age = begun(few, self.drafts), 0
             self.drafts += 1
         else:
             self.draft, self.age = revised(self.draft, some, DRAFT, seed)[0], self.age + DRAFT
@@ -160,17 +166,15 @@ class Pupil:
         return self.adopt([lines for lines in found if lines != self.lines])
 
     def adopt(self, found: Sequence[Lines]) -> bool:
-        """Takes the shortest list for the pupil's own, where it is shorter enough; the others are rivals."""
+        """Takes the shortest list for the pupil's own, where it saves enough; the others may be rivals."""
         if not found:
             return False
-        now, old = bits_of(self.lines, self.cases), self.lines
-        weighed = [(bits_of(lines, self.cases), k, lines) for k, lines in enumerate(found)]
-        least, _, best = min(weighed)
-        if least < now - SHORTER:
-            self.lines, now = best, least
+        old = self.lines
         others = dict.fromkeys([*self.rivals, *found, old])
-        near = [
-            (bits_of(lines, self.cases), k, lines) for k, lines in enumerate(others) if lines != self.lines
-        ]
-        self.rivals = [lines for bits, _, lines in sorted(near[:]) if bits <= now + FAR][:RIVALS]
+        bits = {lines: bits_of(lines, self.cases) for lines in others}
+        best = min(found, key=lambda lines: bits[lines])
+        if bits[best] < bits[old] - SHORTER:
+            self.lines = best
+        near = [lines for lines in others if lines != self.lines and bits[lines] <= bits[self.lines] + FAR]
+        self.rivals = sorted(near, key=lambda lines: bits[lines])[:RIVALS]
         return self.lines != old

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from gaitwright.induction.cases import Cases
+from gaitwright.induction.cases import Cases, picked
 from gaitwright.induction.decision_list import (
     MOST_CONDITIONS,
     Bound,
@@ -14,20 +14,22 @@ from gaitwright.induction.decision_list import (
     RuleLine,
     actions_of,
     as_arrays,
-    as_lines,
+    fire_all,
     first_that_holds,
+    line_of,
     match_all,
     one_line,
-    put_in,
 )
 from gaitwright.induction.grow import grow
-from gaitwright.induction.length import WRONG, bits_as_it_is, bound_bits, name_bits
+from gaitwright.induction.length import WRONG, bound_bits, list_bits, name_bits
 from gaitwright.induction.marks import with_rule
 from gaitwright.induction.scan import between
 from gaitwright.induction.search import PLAIN, WIDTH
 
-NARROWINGS = 3
-"""So many of the best narrowings are weighed in full."""
+NARROWINGS, WIDENINGS = 3, 3
+"""So many of the best narrowings are weighed in full, and so many rules that lack least."""
+MOST_LOOKED_AT = 1000
+"""A new rule is grown on so many cases at most, the last ones."""
 
 
 def repaired(lines: Lines, cases: Cases, case: int) -> tuple[Lines, str]:
@@ -37,12 +39,13 @@ def repaired(lines: Lines, cases: Cases, case: int) -> tuple[Lines, str]:
     Tried are: an earlier rule widened just to here, the rule that fired narrowed by one bound, a new rule in
     front of it, a later rule moved in front of it, and another action for it.
     """
-    rules, n = as_arrays(lines)
-    holds, fire = np.empty((len(rules.action) - 1, cases.n), np.bool_), np.empty(cases.n, np.int64)
+    rules, n = as_arrays(lines, 0)
+    holds, fire = np.empty((n, cases.n), np.bool_), np.empty(cases.n, np.int64)
     match_all(cases.x, rules, n, holds)
-    least = bits_as_it_is(cases, rules, n, holds, fire, cases.n)
+    first_that_holds(holds, n, -1, fire)
+    least = float(list_bits(cases, rules, n, fire, -1, cases.n))
     best, how = lines, ""
-    for candidate, kind in candidates(lines, cases, case, holds[:n], fire):
+    for candidate, kind in candidates(lines, cases, case, holds, fire):
         bits = bits_of(candidate, cases)
         if bits < least - 1e-9:
             least, best, how = bits, candidate, kind
@@ -51,10 +54,10 @@ def repaired(lines: Lines, cases: Cases, case: int) -> tuple[Lines, str]:
 
 def bits_of(lines: Lines, cases: Cases) -> float:
     """Bits of a list and of what it gets wrong."""
-    rules, n = as_arrays(lines)
-    holds, fire = np.empty((len(rules.action) - 1, cases.n), np.bool_), np.empty(cases.n, np.int64)
-    match_all(cases.x, rules, n, holds)
-    return float(bits_as_it_is(cases, rules, n, holds, fire, cases.n))
+    rules, n = as_arrays(lines, 0)
+    fire = np.empty(cases.n, np.int64)
+    fire_all(cases.x, rules, n, fire)
+    return float(list_bits(cases, rules, n, fire, -1, cases.n))
 
 
 def candidates(
@@ -67,9 +70,10 @@ def candidates(
     """Every list that one change makes, with what it is."""
     right, at = int(cases.action[case]), int(fire[case])
     row = cases.x[:, case]
+    earlier = [r for r, rule in enumerate(lines.rules[:at]) if rule.action == right]
+    for r in sorted(earlier, key=lambda r: unmet(lines.rules[r], row))[:WIDENINGS]:
+        yield with_rule(lines, r, widened(lines.rules[r], row)), "widened"
     for r, rule in enumerate(lines.rules):
-        if rule.action == right and r < at:
-            yield with_rule(lines, r, widened(rule, row)), "widened"
         if rule.action == right and r > at and holds[r, case]:
             moved = (*lines.rules[:at], rule, *lines.rules[at:r], *lines.rules[r + 1 :])
             yield replace(lines, rules=moved), "moved"
@@ -80,9 +84,14 @@ def candidates(
     else:
         yield replace(lines, otherwise=right), "changed"
     for place, only in ((at, at), (0, -1)):
-        longer = with_new_rule(lines, cases, place, only)
+        longer = with_new_rule(lines, cases, fire, place, only)
         if longer is not None:
             yield longer, "new"
+
+
+def unmet(rule: RuleLine, row: Float[np.ndarray, " columns"]) -> int:
+    """How many conditions of a rule a case does not meet."""
+    return sum(not bound.low <= row[bound.column] < bound.high for bound in rule.bounds)
 
 
 def widened(rule: RuleLine, row: Float[np.ndarray, " columns"]) -> RuleLine:
@@ -163,20 +172,17 @@ def bounded(rule: RuleLine, column: int, side: int, cut: float) -> RuleLine:
     return replace(rule, bounds=(*rule.bounds, Bound(column, low, high)))
 
 
-def with_new_rule(lines: Lines, cases: Cases, at: int, only: int) -> Lines | None:
+def with_new_rule(
+    lines: Lines, cases: Cases, fire: Int[np.ndarray, " cases"], at: int, only: int
+) -> Lines | None:
     """The list with the best rule put in at a place, for all cases or for those of one rule only; `None`
     where none saves anything."""
-    rules, n = as_arrays(lines)
-    size = cases.n
-    holds, fire = np.empty((len(rules.action) - 1, size), np.bool_), np.empty(size, np.int64)
-    match_all(cases.x, rules, n, holds)
-    first_that_holds(holds, n, -1, fire)
-    right = actions_of(lines, fire) == cases.action
-    active = fire >= at if only < 0 else fire == only
-    gain = np.where(right, 0.05, WRONG) * cases.weight
-    loss = np.where(right, WRONG, 0.0) * cases.weight
-    rule, use = one_line(), np.ones(len(cases.price), np.bool_)
-    if grow(cases, active, gain, loss, PLAIN, WIDTH, use, size, rule) <= 0.0:
+    there = np.flatnonzero(fire >= at if only < 0 else fire == only)[-MOST_LOOKED_AT:]
+    some = picked(cases, there)
+    right = actions_of(lines, fire[there]) == some.action
+    gain = np.where(right, 0.05, WRONG) * some.weight
+    loss = np.where(right, WRONG, 0.0) * some.weight
+    rule, use, active = one_line(), np.ones(len(some.price), np.bool_), np.ones(some.n, np.bool_)
+    if grow(some, active, gain, loss, PLAIN, WIDTH, use, cases.n, rule) <= 0.0:
         return None
-    n = put_in(rules, n, holds, at, rule, cases.x)
-    return as_lines(rules, n)
+    return replace(lines, rules=(*lines.rules[:at], line_of(rule, 0), *lines.rules[at:]))

@@ -6,8 +6,8 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from gaitwright.induction.cases import Cases
-from gaitwright.induction.decision_list import Lines, actions_of, fired
-from gaitwright.induction.marks import gap_of
+from gaitwright.induction.decision_list import Bound, Lines, RuleLine, actions_of, as_arrays, fired
+from gaitwright.numerics.compiled import kernel
 
 ENOUGH_RIGHTS, ENOUGH_SCENES, MOST_ASIDE = 6, 3, 0.08
 """A rule can be sure from so many right cases on, in so many scenes, with at most that share set aside."""
@@ -74,13 +74,44 @@ def standing_of(lines: Lines, cases: Cases, scene: Int[np.ndarray, " cases"]) ->
 
 def upper_marks(lines: Lines, cases: Cases, fire: Int[np.ndarray, " cases"]) -> Lines:
     """The list with every bound moved out to its upper mark: the nearest case that it alone keeps out."""
-    rules = []
-    for r, rule in enumerate(lines.rules):
-        bounds = []
-        for j, bound in enumerate(rule.bounds):
-            upper, lower = (gap_of(rule, j, r, cases, fire, side) for side in (1, -1))
-            low = float(np.nextafter(lower.outer, np.inf)) if lower else bound.low
-            high = upper.outer if upper else bound.high
-            bounds.append(type(bound)(bound.column, low, high))
-        rules.append(type(rule)(rule.action, tuple(bounds)))
-    return Lines(tuple(rules), lines.otherwise)
+    rules, n = as_arrays(lines, 0)
+    low, high = np.full(rules.low.shape, -np.inf), np.full(rules.high.shape, np.inf)
+    nearest_outside(cases, rules, n, fire, low, high)
+    found = (
+        (rule, [(float(low[r, j]), float(high[r, j])) for j in range(len(rule.bounds))])
+        for r, rule in enumerate(lines.rules)
+    )
+    return Lines(tuple(moved_out(rule, marks) for rule, marks in found), lines.otherwise)
+
+
+def moved_out(rule: RuleLine, marks: list[tuple[float, float]]) -> RuleLine:
+    """The rule with its finite bounds at the marks, where there are any."""
+    bounds = []
+    for bound, (low, high) in zip(rule.bounds, marks, strict=True):
+        below = np.nextafter(low, np.inf) if np.isfinite(bound.low) and np.isfinite(low) else bound.low
+        above = high if np.isfinite(bound.high) and np.isfinite(high) else bound.high
+        bounds.append(Bound(bound.column, float(below), float(above)))
+    return RuleLine(rule.action, tuple(bounds))
+
+
+@kernel
+def nearest_outside(cases, rules, n, fire, low, high):
+    """Per condition the nearest cases of other actions, on either side, that it alone keeps out of its rule,
+    among those that no earlier rule decides."""
+    misses, where = np.empty(len(fire), np.int64), np.empty(len(fire), np.int64)
+    for r in range(n):
+        misses[:] = 0
+        for j in range(rules.conditions[r]):
+            values, least, most = cases.x[rules.column[r, j]], rules.low[r, j], rules.high[r, j]
+            for i in range(len(fire)):
+                if not least <= values[i] < most:
+                    misses[i] += 1
+                    where[i] = j
+        for i in range(len(fire)):
+            if misses[i] == 1 and fire[i] > r and cases.action[i] != rules.action[r]:
+                j = where[i]
+                value = cases.x[rules.column[r, j], i]
+                if value >= rules.high[r, j]:
+                    high[r, j] = min(high[r, j], value)
+                elif value < rules.low[r, j]:
+                    low[r, j] = max(low[r, j], value)

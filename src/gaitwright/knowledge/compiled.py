@@ -42,8 +42,8 @@ def compile_book(rulebook: Rulebook) -> Compiled:
         ups, lows = [0] * len(tree.leaves), [0] * len(tree.leaves)
         for bit, rule in enumerate(rulebook.rules):
             marks = rule.marks[place]
-            below = tree.sets[tree.at(marks.upper)] if rule.may_fire else 0
-            inside = tree.sets[tree.at(marks.lower)] if marks.lower is not None else 0
+            below = tree.leaf_set(marks.upper) if rule.may_fire else 0
+            inside = tree.leaf_set(marks.lower) if marks.lower is not None else 0
             for leaf in range(len(tree.leaves)):
                 ups[leaf] |= (below >> leaf & 1) << bit
                 lows[leaf] |= (inside >> leaf & 1) << bit

@@ -22,7 +22,8 @@ from gaitwright.knowledge.rules import (
     Rule,
     Rulebook,
 )
-from gaitwright.knowledge.trees import MAX_LABEL, MAX_LEAVES, FeatureTree
+from gaitwright.knowledge.tree_checks import MAX_LABEL, MAX_LEAVES
+from gaitwright.knowledge.trees import FeatureTree
 
 FORMAT = 1
 MAX_BYTES = 50_000_000
@@ -219,9 +220,9 @@ def _rule(forest: Forest, entry: RuleEntry) -> Rule:
     if len(entry.choices) != len(entry.negatives):
         raise WrongUse(f"{entry.name} has {len(entry.choices)} choices for {len(entry.negatives)} negatives")
     for tree, upper, lower in zip(forest.trees, entry.upper, entry.lower, strict=True):
-        tree.at(upper)
+        tree.leaf_set(upper)
         if lower is not None:
-            tree.at(lower)
+            tree.leaf_set(lower)
     for chosen, others in entry.choices:
         for name in ((chosen,) if chosen else ()) + others:
             forest[name]

@@ -2,7 +2,9 @@
 
 The values below a value exclude each other and leave nothing out, so a value *is* the set of the leaves
 below it. That set is kept as the bits of one int: below, least upper bound and regrouping are set algebra.
-No value stands alone below another, so no two values of a tree mean the same leaves.
+No value stands alone below another, so no two values of a tree mean the same leaves. Where a rule needs
+leaves that have no value of their own, a mark names them: "A to B" is a run of neighbouring intervals,
+"A or B" any leaves.
 """
 
 import math
@@ -12,12 +14,16 @@ from itertools import pairwise
 from typing import Any
 
 from gaitwright.errors import WrongUse, unknown
+from gaitwright.knowledge.tree_checks import (
+    MAX_LEAVES,
+    ROOT,
+    check_labels,
+    check_leaves,
+    check_parents,
+)
 
-ROOT = "any"
-"""The value at the top of every tree, true in every situation (the thesis's TRUE)."""
-MAX_LEAVES = 512
-MAX_DEPTH = 16
-MAX_LABEL = 200
+RUN, OR = " to ", " or "
+"""Between the ends of a run of intervals, and between leaves, in the name of a mark that is no value."""
 
 Shape = Mapping[str, Any] | Sequence[Any]
 """Nested values in order: a mapping of values to the shapes below them, or a row of leaves and mappings."""
@@ -47,10 +53,10 @@ class FeatureTree:
 
     def __post_init__(self) -> None:
         """Derives the leaf sets. Raises `WrongUse` where this is no tree of exclusive values."""
-        _check_labels(self)
-        _check_parents(self)
+        check_labels(self)
+        check_parents(self)
         sets, leaves = _leaf_sets(self.values, self.parents)
-        _check_leaves(self, leaves)
+        check_leaves(self, leaves)
         derive = object.__setattr__
         derive(self, "place", {value: k for k, value in enumerate(self.values)})
         derive(self, "sets", sets)
@@ -63,6 +69,29 @@ class FeatureTree:
             return self.place[value]
         except KeyError:
             raise unknown(f"value of {self.name}", value, self.values) from None
+
+    def leaf_set(self, mark: str) -> int:
+        """The leaves that a value, a run of intervals or a few leaves stand for, as bits. Raises `WrongUse`
+        naming the values there are."""
+        if mark in self.place:
+            return self.sets[self.place[mark]]
+        if self.bounds:
+            for first, last in _parted(mark, RUN):
+                if {first, last} <= self.leaf_place.keys():
+                    low, high = self.leaf_place[first], self.leaf_place[last]
+                    return (1 << high + 1) - (1 << low) if low <= high else 0
+        several = mark.split(OR)
+        if set(several) <= self.leaf_place.keys():
+            return self.set_of(several)
+        return self.sets[self.at(mark)]
+
+    def label_of(self, bits: int) -> str:
+        """What leaves are called: by their own value, as a run of intervals, or one by one."""
+        if bits in self.sets:
+            return self.values[self.sets.index(bits)]
+        leaves = [leaf for k, leaf in enumerate(self.leaves) if bits >> k & 1]
+        in_a_row = bits.bit_length() - (bits & -bits).bit_length() + 1 == len(leaves)
+        return run_label(leaves) if self.bounds and in_a_row else OR.join(leaves)
 
     def is_leaf(self, value: str) -> bool:
         return value in self.leaf_place
@@ -77,7 +106,7 @@ class FeatureTree:
 
     def is_below(self, value: str, mark: str) -> bool:
         """Whether the value is in the subtree that the mark dominates, the mark itself included."""
-        return not self.sets[self.at(value)] & ~self.sets[self.at(mark)]
+        return not self.leaf_set(value) & ~self.leaf_set(mark)
 
     def least_upper_bound(self, a: str, b: str) -> str:
         """The lowest value that both are below."""
@@ -102,7 +131,7 @@ class FeatureTree:
         return len(self.path(a)) + len(self.path(b)) - 2 * shared
 
     def leaves_below(self, value: str) -> tuple[str, ...]:
-        bits = self.sets[self.at(value)]
+        bits = self.leaf_set(value)
         return tuple(leaf for k, leaf in enumerate(self.leaves) if bits >> k & 1)
 
     def leaf_of(self, number: float) -> str:
@@ -222,7 +251,15 @@ def _halved(row: tuple[str, ...]) -> Shape:
 
 def run_label(row: Sequence[str]) -> str:
     """What a run of neighbouring intervals is called."""
-    return f"{row[0]} to {row[-1]}"
+    return f"{row[0]}{RUN}{row[-1]}"
+
+
+def _parted(text: str, word: str) -> Iterator[tuple[str, str]]:
+    """All ways to part a text at a word."""
+    at = text.find(word)
+    while at >= 0:
+        yield text[:at], text[at + len(word) :]
+        at = text.find(word, at + 1)
 
 
 def _interval_labels(cuts: tuple[float, ...], unit: str) -> tuple[str, ...]:
@@ -241,51 +278,3 @@ def _leaf_sets(values: Sequence[str], parents: Sequence[int]) -> tuple[tuple[int
             sets[here] |= 1 << bit
             here = parents[here]
     return tuple(sets), tuple(values[leaf] for leaf in leaves)
-
-
-def _check_labels(t: FeatureTree) -> None:
-    """Raises `WrongUse` for labels that no person could tell apart or read."""
-    for label in (t.name, *t.values):
-        if not label.strip() or len(label) > MAX_LABEL or not label.isprintable():
-            raise WrongUse(
-                f"tree {t.name!r}: {label!r} is no label; it needs 1 to {MAX_LABEL} printable characters"
-            )
-    seen: set[str] = set()
-    for value in t.values:
-        if value in seen:
-            raise WrongUse(f"tree {t.name} has the value {value!r} twice")
-        seen.add(value)
-
-
-def _check_parents(t: FeatureTree) -> None:
-    """Raises `WrongUse` where the values do not stand in order, each branch to its end before the next."""
-    if len(t.parents) != len(t.values) or not t.values or t.values[0] != ROOT or t.parents[0] != -1:
-        raise WrongUse(f"tree {t.name} must begin with {ROOT!r} and give each other value its parent")
-    branch = [0]  # from the root to the value before
-    for k, above in enumerate(t.parents[1:], start=1):
-        if above not in branch:
-            raise WrongUse(f"tree {t.name}: {t.values[k]!r} hangs below place {above}; it may be {branch}")
-        branch = [*branch[: branch.index(above) + 1], k]
-        if len(branch) > MAX_DEPTH + 1:
-            raise WrongUse(f"tree {t.name} is deeper than {MAX_DEPTH}")
-
-
-def _check_leaves(t: FeatureTree, leaves: tuple[str, ...]) -> None:
-    """Raises `WrongUse` for a value that has one value below it, for too many leaves, or bounds that do
-    not fit."""
-    for k, value in enumerate(t.values):
-        if t.parents.count(k) == 1:
-            only = t.values[t.parents.index(k)]
-            raise WrongUse(
-                f"tree {t.name}: {only!r} is the only value below {value!r}, so both mean the same"
-            )
-    if not 2 <= len(leaves) <= MAX_LEAVES:
-        raise WrongUse(f"tree {t.name} has {len(leaves)} leaves; a tree has 2 to {MAX_LEAVES}")
-    ascending = all(low < high for low, high in pairwise(t.bounds))
-    if t.bounds and not (
-        len(t.bounds) + 1 == len(leaves) and ascending and all(math.isfinite(bound) for bound in t.bounds)
-    ):
-        raise WrongUse(
-            f"tree {t.name}: bounds must be finite, ascending and one fewer than its {len(leaves)} leaves; "
-            f"got {list(t.bounds)}"
-        )

@@ -1,0 +1,54 @@
+"""Interval trees with more bounds: the leaves that a learned bound lies in are cut there (fig. 5.6)."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+
+from gaitwright.knowledge.trees import FeatureTree, interval_tree
+
+
+def cut_at(old: FeatureTree, bounds: Sequence[float]) -> FeatureTree:
+    """The tree with these bounds beside its own; every value stays what it was as a set of numbers.
+
+    A leaf that is cut becomes a value with its parts below it: what had a name keeps it.
+    """
+    new = sorted(set(bounds) - set(old.bounds))
+    if not new:
+        return old
+    edges = (float("-inf"), *old.bounds, float("inf"))
+    values, parents, moved = [], [], {}
+    for k, value in enumerate(old.values):
+        moved[k] = len(values)
+        values.append(value)
+        parents.append(moved[old.parents[k]] if k else -1)
+        if not old.is_leaf(value):
+            continue
+        low, high = edges[old.leaf_place[value]], edges[old.leaf_place[value] + 1]
+        inside = [bound for bound in new if low < bound < high]
+        if inside:
+            parts = pairwise((low, *inside, high))
+            values += [part_label(value, a, b, (low, high)) for a, b in parts]
+            parents += [moved[k]] * (len(inside) + 1)
+    return replace(
+        old, values=tuple(values), parents=tuple(parents), bounds=tuple(sorted((*old.bounds, *new)))
+    )
+
+
+def part_label(value: str, low: float, high: float, whole: tuple[float, float]) -> str:
+    """What a part of an interval is called: "walking pace under 0.2"."""
+    if low == whole[0]:
+        return f"{value} under {high:.6g}"
+    if high == whole[1]:
+        return f"{value} from {low:.6g}"
+    return f"{value}, {low:.6g} … {high:.6g}"
+
+
+def tree_at(name: str, unit: str, bounds: Sequence[float], about: str, source: str) -> FeatureTree:
+    """A tree of a number that had none, with a leaf between any two bounds."""
+    return replace(interval_tree(name, unit, sorted(set(bounds)), about=about), source=source)
+
+
+def run_of(tree: FeatureTree, low: float, high: float) -> int:
+    """The leaves between two bounds of a tree, or its open ends, as bits."""
+    edges = (float("-inf"), *tree.bounds, float("inf"))
+    return sum(1 << k for k, (a, b) in enumerate(pairwise(edges)) if low <= a and b <= high)

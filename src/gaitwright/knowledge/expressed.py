@@ -1,0 +1,179 @@
+"""A list that was learned on numbers, as rules over feature trees: the thesis's form (§5.4.2.1, fig. 5.6).
+
+A bound that no tree has cuts the leaf that it lies in; a number that no tree reads becomes a tree. A rule's
+upper mark in a tree is what its conditions there allow, its lower mark what it was right at.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gaitwright.induction.cases import Cases
+from gaitwright.induction.columns import Column, Vocabulary
+from gaitwright.induction.decision_list import Bound, Lines
+from gaitwright.induction.marks import gap_of
+from gaitwright.induction.standing import Standing
+from gaitwright.knowledge.cutting import cut_at, run_of, tree_at
+from gaitwright.knowledge.forest import Forest, leaf_in
+from gaitwright.knowledge.memory import Action
+from gaitwright.knowledge.rules import Choice, Instance, Marks, Rule, Rulebook
+from gaitwright.knowledge.trees import ROOT, FeatureTree
+
+MOST_WITNESSES = 24
+"""Cases of either sign that a rule shows: those that hold its marks, and then the last ones."""
+
+
+@dataclass(frozen=True, slots=True)
+class Lessons:
+    """What was taught, beside the numbers that the search sees: instance, action and rule name by case."""
+
+    instances: Sequence[Instance]
+    actions: Sequence[Action]
+    names: Sequence[str]
+    """What the teacher called the rule, case by case."""
+
+
+@dataclass(frozen=True)
+class Wording:
+    """How columns are spoken of: the trees there are, and which of them reads which column."""
+
+    forest: Forest
+    tree_of: Mapping[str, str]
+    """The tree that reads a column, by their names; a column that is not named gets a tree of its own."""
+
+    def of(self, column: Column) -> str:
+        """The name of a column's tree."""
+        return self.tree_of.get(column.sources[0] if column.values else column.name, column.name)
+
+
+def expressed(
+    lines: Lines, cases: Cases, standing: Standing, vocabulary: Vocabulary, wording: Wording, taught: Lessons
+) -> Rulebook:
+    """The rulebook that decides as the list does."""
+    forest = forest_for([lines], vocabulary, wording)
+    seen = [placed(forest, vocabulary, wording, instance) for instance in taught.instances]
+    rules: list[Rule] = []
+    for r in range(len(lines.rules) + 1):
+        if r == len(lines.rules) and not standing.rights[r]:
+            continue
+        action = lines.rules[r].action if r < len(lines.rules) else lines.otherwise
+        upper = upper_sets(lines, r, forest, vocabulary, wording)
+        rights, wrongs = witnesses(lines, r, cases, standing)
+        rule = Rule(
+            name_for([taught.names[k] for k in np.flatnonzero(standing.right & (standing.fire == r))], rules),
+            taught.actions[action],
+            marks_of(forest, upper, [seen[k] for k in np.flatnonzero(standing.right & (standing.fire == r))]),
+            tuple(replace(seen[k], kind="positive") for k in rights),
+            tuple(replace(seen[k], kind="commission") for k in wrongs),
+        )
+        rules.append(replace(rule, choices=tuple(choice_of(forest, rule, wrong) for wrong in rule.negatives)))
+    return Rulebook(forest, tuple(rules), lessons=cases.n)
+
+
+# --- trees -----------------------------------------------------------------------------------------
+def forest_for(lists: Sequence[Lines], vocabulary: Vocabulary, wording: Wording) -> Forest:
+    """The trees with every bound of the lists in them, and new ones for numbers that none of them reads."""
+    needed: dict[str, tuple[Column, set[float]]] = {}
+    for lines in lists:
+        for bound in (bound for rule in lines.rules for bound in rule.bounds):
+            column = vocabulary.columns[bound.column]
+            if not column.values:
+                cuts = needed.setdefault(wording.of(column), (column, set()))[1]
+                cuts.update(cut for cut in (bound.low, bound.high) if np.isfinite(cut))
+    trees = [
+        cut_at(tree, sorted(needed.pop(tree.name)[1])) if tree.name in needed else tree
+        for tree in wording.forest.trees
+    ]
+    new = [
+        tree_at(name, column.unit, sorted(cuts), f"{column.name} is", column.name)
+        for name, (column, cuts) in needed.items()
+    ]
+    return Forest((*trees, *new))
+
+
+def placed(forest: Forest, vocabulary: Vocabulary, wording: Wording, instance: Instance) -> Instance:
+    """The instance in a forest with more bounds: leaves that are names as they were, all others read anew."""
+    columns = {wording.of(column): column for column in vocabulary.columns if not column.values}
+    known = {}
+    for tree in forest.trees:
+        if tree.bounds and tree.name in columns:
+            number = columns[tree.name].read(instance.raw)
+            known[tree.name] = leaf_in(replace(tree, source=""), {tree.name: number})
+        elif tree.name in instance.situation.trees:
+            known[tree.name] = instance.situation[tree.name]
+    return replace(instance, situation=forest.read(known, {}))
+
+
+# --- marks -----------------------------------------------------------------------------------------
+def upper_sets(
+    lines: Lines, r: int, forest: Forest, vocabulary: Vocabulary, wording: Wording
+) -> dict[str, int]:
+    """The leaves that the conditions of a rule allow, in each tree in which it has any."""
+    allowed: dict[str, int] = {}
+    for bound in lines.rules[r].bounds if r < len(lines.rules) else ():
+        column = vocabulary.columns[bound.column]
+        tree = forest[wording.of(column)]
+        whole = (1 << len(tree.leaves)) - 1
+        allowed[tree.name] = allowed.get(tree.name, whole) & leaves_within(tree, column, bound)
+    return allowed
+
+
+def leaves_within(tree: FeatureTree, column: Column, bound: Bound) -> int:
+    """The leaves of a tree that one condition allows, as bits."""
+    if not column.values:
+        return run_of(tree, bound.low, bound.high)
+    bits = tree.set_of(column.values)
+    return bits if bound.low <= 1.0 < bound.high else ((1 << len(tree.leaves)) - 1) & ~bits
+
+
+def marks_of(forest: Forest, upper: Mapping[str, int], rights: Sequence[Instance]) -> tuple[Marks, ...]:
+    """A rule's marks: what it may fire at, and what it was right at; in a tree of numbers all between two."""
+    marks = []
+    for place, tree in enumerate(forest.trees):
+        top = tree.label_of(upper[tree.name]) if tree.name in upper else ROOT
+        values = {value for right in rights if (value := right.situation.values[place]) is not None}
+        bits = tree.set_of(sorted(values))
+        if tree.bounds and bits:
+            bits = (1 << bits.bit_length()) - (bits & -bits)
+        marks.append(Marks(tree.name, top, tree.label_of(bits) if bits else None))
+    return tuple(marks)
+
+
+# --- what holds them -------------------------------------------------------------------------------
+def witnesses(lines: Lines, r: int, cases: Cases, standing: Standing) -> tuple[list[int], list[int]]:
+    """Cases that show why a rule is as it is: at its bounds, at the ends of what it was right at, and the
+    last ones; and those that it is kept from or decides wrongly."""
+    mine, rights, wrongs = standing.fire == r, [], []
+    if r < len(lines.rules):
+        for j in range(len(lines.rules[r].bounds)):
+            for side in (1, -1):
+                gap = gap_of(lines.rules[r], j, r, cases, standing.fire, side)
+                if gap is not None:
+                    rights += [gap.inner_case] if standing.right[gap.inner_case] else []
+                    wrongs.append(gap.outer_case)
+    last = np.flatnonzero(mine & standing.right)[::-1][:MOST_WITNESSES].tolist()
+    return (
+        sorted(list(dict.fromkeys([*rights, *last]))[:MOST_WITNESSES]),
+        sorted(list(dict.fromkeys(wrongs))[:MOST_WITNESSES]),
+    )
+
+
+def choice_of(forest: Forest, rule: Rule, wrong: Instance) -> Choice:
+    """The trees that keep an instance out: the first of them, and the others."""
+    out = [
+        tree.name
+        for tree, marks, value in zip(forest.trees, rule.marks, wrong.situation.values, strict=True)
+        if value is not None and not tree.is_below(value, marks.upper)
+    ]
+    return Choice(out[0], tuple(out[1:])) if out else Choice("")
+
+
+def name_for(said: Sequence[str], rules: Sequence[Rule]) -> str:
+    """What the teacher called a rule most often; with a number where another is called so already."""
+    taken = {rule.name for rule in rules}
+    name = max(sorted(set(said)), key=said.count) if said else "rule"
+    number, free = 2, name
+    while free in taken:
+        free, number = f"{name} {number}", number + 1
+    return free
