@@ -8,6 +8,7 @@ from itertools import groupby
 from gaitwright.knowledge.compiled import compile_book
 from gaitwright.knowledge.consult import Decision, consult
 from gaitwright.knowledge.counterfactual import Counterfactual, counterfactual
+from gaitwright.knowledge.cutting import is_word, spoken
 from gaitwright.knowledge.explain import NEAREST, STATUS, last_move, listed, move_text, why, why_not
 from gaitwright.knowledge.forest import Situation
 from gaitwright.knowledge.rules import Rule, Rulebook, outside, status
@@ -51,8 +52,9 @@ def sentence_of(rulebook: Rulebook, rule: Rule) -> str:
 def condition(tree: FeatureTree, value: str) -> str:
     """A tree's value as a person says it; where one stands for a few leaves, with these."""
     below = tree.leaves_below(value)
-    wider = f" ({', '.join(below)})" if 1 < len(below) <= 4 and value not in (run_of(below), *below) else ""
-    return f"{tree.about or tree.name + ' is'} {value}{wider}"
+    is_group = is_word(tree, value) and all(is_word(tree, leaf) for leaf in below)
+    wider = is_group and 1 < len(below) <= 4 and value not in (run_of(below), *below)
+    return spoken(tree, value) + (f" ({', '.join(below)})" if wider else "")
 
 
 def run_of(leaves: tuple[str, ...]) -> str:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from gaitwright.knowledge.trees import FeatureTree, interval_tree
+from gaitwright.knowledge.trees import ROOT, FeatureTree, interval_tree
 
 
 def cut_at(old: FeatureTree, bounds: Sequence[float]) -> FeatureTree:
@@ -52,3 +52,33 @@ def run_of(tree: FeatureTree, low: float, high: float) -> int:
     """The leaves between two bounds of a tree, or its open ends, as bits."""
     edges = (float("-inf"), *tree.bounds, float("inf"))
     return sum(1 << k for k, (a, b) in enumerate(pairwise(edges)) if low <= a and b <= high)
+
+
+def spoken(tree: FeatureTree, mark: str) -> str:
+    """A mark as a person says it: "the road is flat", "the way left is under 0.4 body lengths"."""
+    about = tree.about or f"{tree.name} is"
+    return f"{about if is_word(tree, mark) else about.removesuffix(' a')} {value_text(tree, mark)}"
+
+
+def value_text(tree: FeatureTree, mark: str) -> str:
+    """The values that a mark stands for: its name where it has one, else from which number to which."""
+    if is_word(tree, mark):
+        return mark
+    (low, high), unit = range_of(tree, mark), f" {tree.unit}".rstrip()
+    if low == float("-inf"):
+        return f"under {high:.4g}{unit}"
+    if high == float("inf"):
+        return f"at least {low:.4g}{unit}"
+    return f"from {low:.4g} to {high:.4g}{unit}"
+
+
+def is_word(tree: FeatureTree, mark: str) -> bool:
+    """Whether a mark has a name of its own, and not one made of bounds."""
+    return not tree.bounds or mark == ROOT or (mark in tree.place and not any(map(str.isdigit, mark)))
+
+
+def range_of(tree: FeatureTree, mark: str) -> tuple[float, float]:
+    """The numbers between which a mark of a tree of intervals lies."""
+    bits = tree.leaf_set(mark)
+    edges = (float("-inf"), *tree.bounds, float("inf"))
+    return edges[(bits & -bits).bit_length() - 1], edges[bits.bit_length()]

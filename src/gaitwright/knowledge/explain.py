@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from gaitwright.knowledge.consult import Decision, consult
+from gaitwright.knowledge.cutting import spoken, value_text
 from gaitwright.knowledge.forest import Situation
 from gaitwright.knowledge.rules import Event, Rulebook, outside, status
 from gaitwright.knowledge.trees import ROOT, FeatureTree
@@ -37,12 +38,11 @@ def why_not(rulebook: Rulebook, name: str, situation: Situation) -> str:
         wish = _wish(rulebook, str(decision.rule), name)
         return f"{name} could fire, but {decision.rule} comes before it{wish}."
     parts = []
-    for tree in blocked:
-        moved = last_move(rulebook, name, tree)
+    for tree in (rulebook.forest[name_of] for name_of in blocked):
+        moved = last_move(rulebook, name, tree.name)
         since = f", since {moved.instance}" if moved else ""
-        parts.append(
-            f"{_needs(rulebook.forest[tree], rule.marks_in(tree).upper)}, not {situation[tree]}{since}"
-        )
+        needed, given = rule.marks_in(tree.name).upper, situation[tree.name]
+        parts.append(f"{_needs(tree, needed)}, not {_value(tree, given)}{since}")
     return f"{name} would need {' and '.join(parts)}."
 
 
@@ -88,7 +88,7 @@ def _because(rulebook: Rulebook, decision: Decision) -> str:
     for tree, marks in zip(rulebook.forest.trees, rulebook[decision.rule].marks, strict=True):
         if marks.upper != ROOT:
             value = decision.situation[tree.name]
-            wider = f" ({marks.upper})" if marks.upper != value else ""
+            wider = f" ({value_text(tree, marks.upper)})" if marks.upper != value else ""
             reasons.append(_says(tree, value) + wider)
     return f"{decision.rule}, because {listed(reasons) or 'no lesson speaks against it'}"
 
@@ -147,11 +147,15 @@ def _leaf_sign(tree: FeatureTree, upper: str, lower: str | None, leaf: str) -> s
 
 
 def _says(tree: FeatureTree, value: str | None) -> str:
-    return f"{tree.about or tree.name + ' is'} {value or 'unknown'}"
+    return spoken(tree, value) if value else f"{tree.about or tree.name + ' is'} unknown"
+
+
+def _value(tree: FeatureTree, value: str | None) -> str:
+    return value_text(tree, value) if value else "unknown"
 
 
 def _needs(tree: FeatureTree, value: str) -> str:
-    return f"{tree.name} to be {value}"
+    return f"{tree.name} to be {value_text(tree, value)}"
 
 
 def listed(parts: Sequence[str]) -> str:

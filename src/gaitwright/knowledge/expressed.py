@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from jaxtyping import Int
 
 from gaitwright.induction.cases import Cases
 from gaitwright.induction.columns import Column, Vocabulary
@@ -15,13 +16,13 @@ from gaitwright.induction.decision_list import Bound, Lines
 from gaitwright.induction.marks import gap_of
 from gaitwright.induction.standing import Standing
 from gaitwright.knowledge.cutting import cut_at, run_of, tree_at
-from gaitwright.knowledge.forest import Forest, leaf_in
+from gaitwright.knowledge.forest import Forest
 from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.rules import Choice, Instance, Marks, Rule, Rulebook
+from gaitwright.knowledge.rules import Choice, Instance, Kind, Marks, Rule, Rulebook
 from gaitwright.knowledge.trees import ROOT, FeatureTree
 
 MOST_WITNESSES = 24
-"""Cases of either sign that a rule shows: those that hold its marks, and then the last ones."""
+"""Cases of either sign that a rule shows: those that hold its marks, and then the first ones."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,20 +53,21 @@ def expressed(
 ) -> Rulebook:
     """The rulebook that decides as the list does."""
     forest = forest_for([lines], vocabulary, wording)
-    seen = [placed(forest, vocabulary, wording, instance) for instance in taught.instances]
+    sets = leaf_sets(forest, cases, vocabulary, wording, taught.instances)
     rules: list[Rule] = []
     for r in range(len(lines.rules) + 1):
-        if r == len(lines.rules) and not standing.rights[r]:
+        mine = np.flatnonzero(standing.right & (standing.fire == r)).tolist()
+        if r == len(lines.rules) and not mine:
             continue
         action = lines.rules[r].action if r < len(lines.rules) else lines.otherwise
         upper = upper_sets(lines, r, forest, vocabulary, wording)
         rights, wrongs = witnesses(lines, r, cases, standing)
         rule = Rule(
-            name_for([taught.names[k] for k in np.flatnonzero(standing.right & (standing.fire == r))], rules),
+            name_for([taught.names[k] for k in mine], rules),
             taught.actions[action],
-            marks_of(forest, upper, [seen[k] for k in np.flatnonzero(standing.right & (standing.fire == r))]),
-            tuple(replace(seen[k], kind="positive") for k in rights),
-            tuple(replace(seen[k], kind="commission") for k in wrongs),
+            marks_of(forest, upper, sets[mine]),
+            tuple(shown(forest, vocabulary, wording, taught.instances[k], "positive") for k in rights),
+            tuple(shown(forest, vocabulary, wording, taught.instances[k], "commission") for k in wrongs),
         )
         rules.append(replace(rule, choices=tuple(choice_of(forest, rule, wrong) for wrong in rule.negatives)))
     return Rulebook(forest, tuple(rules), lessons=cases.n)
@@ -92,17 +94,40 @@ def forest_for(lists: Sequence[Lines], vocabulary: Vocabulary, wording: Wording)
     return Forest((*trees, *new))
 
 
-def placed(forest: Forest, vocabulary: Vocabulary, wording: Wording, instance: Instance) -> Instance:
+def shown(
+    forest: Forest, vocabulary: Vocabulary, wording: Wording, instance: Instance, kind: Kind
+) -> Instance:
     """The instance in a forest with more bounds: leaves that are names as they were, all others read anew."""
     columns = {wording.of(column): column for column in vocabulary.columns if not column.values}
     known = {}
     for tree in forest.trees:
         if tree.bounds and tree.name in columns:
             number = columns[tree.name].read(instance.raw)
-            known[tree.name] = leaf_in(replace(tree, source=""), {tree.name: number})
+            known[tree.name] = None if np.isnan(number) else tree.leaf_of(number)
         elif tree.name in instance.situation.trees:
             known[tree.name] = instance.situation[tree.name]
-    return replace(instance, situation=forest.read(known, {}))
+    return replace(instance, kind=kind, situation=forest.read(known, {}))
+
+
+def leaf_sets(
+    forest: Forest,
+    cases: Cases,
+    vocabulary: Vocabulary,
+    wording: Wording,
+    instances: Sequence[Instance],
+) -> Int[np.ndarray, "cases trees"]:
+    """The place of each case's leaf in each tree; −1 where it was not noted."""
+    columns = {wording.of(c): k for k, c in enumerate(vocabulary.columns) if not c.values}
+    places = np.full((cases.n, len(forest.trees)), -1)
+    for t, tree in enumerate(forest.trees):
+        if tree.bounds and tree.name in columns:
+            numbers = cases.x[columns[tree.name]]
+            found = np.searchsorted(np.array(tree.bounds), numbers, side="right")
+            places[:, t] = np.where(np.isnan(numbers), -1, found)
+        elif instances and tree.name in instances[0].situation.trees:
+            leaves = (instance.situation[tree.name] for instance in instances)
+            places[:, t] = [-1 if leaf is None else tree.leaf_place[leaf] for leaf in leaves]
+    return places
 
 
 # --- marks -----------------------------------------------------------------------------------------
@@ -127,23 +152,25 @@ def leaves_within(tree: FeatureTree, column: Column, bound: Bound) -> int:
     return bits if bound.low <= 1.0 < bound.high else ((1 << len(tree.leaves)) - 1) & ~bits
 
 
-def marks_of(forest: Forest, upper: Mapping[str, int], rights: Sequence[Instance]) -> tuple[Marks, ...]:
+def marks_of(
+    forest: Forest, upper: Mapping[str, int], rights: Int[np.ndarray, "rights trees"]
+) -> tuple[Marks, ...]:
     """A rule's marks: what it may fire at, and what it was right at; in a tree of numbers all between two."""
     marks = []
-    for place, tree in enumerate(forest.trees):
+    for tree, places in zip(forest.trees, rights.T, strict=True):
         top = tree.label_of(upper[tree.name]) if tree.name in upper else ROOT
-        values = {value for right in rights if (value := right.situation.values[place]) is not None}
-        bits = tree.set_of(sorted(values))
-        if tree.bounds and bits:
-            bits = (1 << bits.bit_length()) - (bits & -bits)
+        seen = sorted(set(places[places >= 0].tolist()))
+        if tree.bounds and seen:
+            seen = list(range(seen[0], seen[-1] + 1))
+        bits = sum(1 << place for place in seen)
         marks.append(Marks(tree.name, top, tree.label_of(bits) if bits else None))
     return tuple(marks)
 
 
 # --- what holds them -------------------------------------------------------------------------------
 def witnesses(lines: Lines, r: int, cases: Cases, standing: Standing) -> tuple[list[int], list[int]]:
-    """Cases that show why a rule is as it is: at its bounds, at the ends of what it was right at, and the
-    last ones; and those that it is kept from or decides wrongly."""
+    """Cases that show why a rule is as it is: those at its bounds and the first that were right; and the
+    nearest that it is kept from."""
     mine, rights, wrongs = standing.fire == r, [], []
     if r < len(lines.rules):
         for j in range(len(lines.rules[r].bounds)):
@@ -152,11 +179,13 @@ def witnesses(lines: Lines, r: int, cases: Cases, standing: Standing) -> tuple[l
                 if gap is not None:
                     rights += [gap.inner_case] if standing.right[gap.inner_case] else []
                     wrongs.append(gap.outer_case)
-    last = np.flatnonzero(mine & standing.right)[::-1][:MOST_WITNESSES].tolist()
-    return (
-        sorted(list(dict.fromkeys([*rights, *last]))[:MOST_WITNESSES]),
-        sorted(list(dict.fromkeys(wrongs))[:MOST_WITNESSES]),
-    )
+    first = np.flatnonzero(mine & standing.right)[:MOST_WITNESSES].tolist()
+    return first_few([*rights, *first]), first_few(wrongs)
+
+
+def first_few(places: Sequence[int]) -> list[int]:
+    """The first of some places, each once, in order."""
+    return sorted(list(dict.fromkeys(places))[:MOST_WITNESSES])
 
 
 def choice_of(forest: Forest, rule: Rule, wrong: Instance) -> Choice:
