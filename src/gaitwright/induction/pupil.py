@@ -18,6 +18,8 @@ SHORTER = 2.0
 """Bits that a revision must save to be adopted."""
 EACH_LESSON, EACH_MISTAKE, DRAFT = 2, 5, 4
 """Rounds of search on the list after a lesson that was known, after one that was not, and on the draft."""
+OFTENER, UNTIL = 4, 400
+"""While cases are few, search is cheap: so many times the rounds at first, and no more from so many on."""
 RIPE = 40
 """Rounds after which a draft is compared with the list."""
 RIVALS, FAR = 6, 40.0
@@ -152,14 +154,16 @@ class Pupil:
         seed = self.seed * 1_000_003 + self.cases.n
         wrong = np.flatnonzero(actions_of(self.lines, fired(self.lines, self.cases.x)) != self.cases.action)
         some = sample(self.cases, wrong, len(self.lines.rules), seed)
-        better, saved = revised(self.lines, some, rounds, seed)
+        often = min(OFTENER, max(1, UNTIL // self.cases.n))
+        better, saved = revised(self.lines, some, often * rounds, seed)
         found = [better] if saved > SHORTER else []
         if self.draft is None:
             few = sample(self.cases, wrong, len(self.lines.rules), seed, FEW)
             self.draft, self.age = begun(few, self.drafts), 0
             self.drafts += 1
         else:
-            self.draft, self.age = revised(self.draft, some, DRAFT, seed)[0], self.age + DRAFT
+            self.draft = revised(self.draft, some, often * DRAFT, seed)[0]
+            self.age += often * DRAFT
         if self.age >= RIPE or self.cases.n < RIPE:
             found.append(self.draft)
             self.draft = None

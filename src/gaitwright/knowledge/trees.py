@@ -77,9 +77,9 @@ class FeatureTree:
             return self.sets[self.place[mark]]
         if self.bounds:
             for first, last in _parted(mark, RUN):
-                if {first, last} <= self.leaf_place.keys():
-                    low, high = self.leaf_place[first], self.leaf_place[last]
-                    return (1 << high + 1) - (1 << low) if low <= high else 0
+                low, high = self.leaf_place.get(first, 1), self.leaf_place.get(last, 0)
+                if low <= high:
+                    return (1 << high + 1) - (1 << low)
         several = mark.split(OR)
         if set(several) <= self.leaf_place.keys():
             return self.set_of(several)

@@ -11,6 +11,7 @@ from time import perf_counter
 import numpy as np
 
 from gaitwright.bench.context import Context
+from gaitwright.bench.evidence.whole_trip_schools import schools
 from gaitwright.bench.measurement import Figure, at_least, at_most
 from gaitwright.bench.peers.rules_client import RulesPeer
 from gaitwright.bench.trial import robot_named
@@ -34,7 +35,8 @@ NOTE = (
     "which the teacher uses a skill, at first or where rules went wrong; walk has four uses, each a rule. "
     "Right: the same skill at the same speed range as the teacher. CART and k-NN get the same demonstrated "
     "moments as our rules beside them, but cannot be told the teacher's reason. Faults are those of pupils "
-    f"after {HALF} trips."
+    f"after {HALF} trips. Whole trips: a pupil of `induction` drives from the first moments on, each moment "
+    "is labelled, and the teacher has no border within which she is silent."
 )
 
 
@@ -51,6 +53,7 @@ def measure(context: Context) -> Iterator[Figure]:
     yield share("go2's rules: trees that are firm", [s.report.firm for s in whole], at_least(80.0))
     yield from beside(context, seeds)
     yield from corrections(context, seeds)
+    yield from schools(context)
 
 
 def share(what: str, each: Sequence[float], wanted=None, note: str = "") -> Figure:
