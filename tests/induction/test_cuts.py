@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from random_tables import decisions_of, places_of, random_cases, random_lines, rule_holds, table_of
 
-from gaitwright.induction.cases import Cases
+from gaitwright.induction.cases import NOBODY, Cases
 from gaitwright.induction.decision_list import Bound, Lines, RuleLine, fired
 from gaitwright.induction.marks import cut_in, gap_of, settled
 from gaitwright.induction.repair import bits_of
@@ -21,7 +21,8 @@ def drawn(seed: int, most: int) -> tuple[Cases, Lines, tuple]:
     rng = np.random.default_rng(seed)
     cases, lines = random_cases(rng, 30, 3, 3), random_lines(rng, 4, 3, 3, most=most)
     slips = rng.random(30) < 0.1
-    cases = cases._replace(action=np.where(slips, cases.action, decisions_of(lines, cases.x)))
+    action = np.where(slips, cases.action, decisions_of(lines, cases.x))
+    cases = cases._replace(action=action, reason=np.full(30, NOBODY))
     known = tuple(tuple(rng.integers(-8, 9, rng.integers(0, 3)) / 8.0) for _ in range(3))
     return cases, lines, known
 
@@ -90,10 +91,10 @@ def test_a_case_that_two_bounds_keep_out_stays_out():
 
 
 @TWICE_OUT
-@given(seeds)
-def test_lists_of_several_conditions_decide_as_before(seed):
-    cases, lines, known = drawn(seed, most=3)
-    check_settled(cases, lines, settled(lines, cases, known))
+def test_lists_of_several_conditions_decide_as_before():
+    for seed in (*range(60), 255, 502, 873):
+        cases, lines, known = drawn(seed, most=3)
+        check_settled(cases, lines, settled(lines, cases, known))
 
 
 def check_settled(cases: Cases, before: Lines, after: Lines) -> None:
@@ -143,8 +144,7 @@ def check_gap(cases: Cases, lines: Lines, fire: np.ndarray, which: tuple[int, in
         if fire[i] == r:
             inside.append(x[i])
         elif fire[i] > r and cases.action[i] != rule.action and rule_holds(open_here, cases.x[:, i]):
-            if x[i] >= end if side > 0 else x[i] < end:
-                outside.append(x[i])
+            outside += [x[i]] if (x[i] >= end if side > 0 else x[i] < end) else []
     gap = gap_of(rule, j, r, cases, fire, side)
     if not (np.isfinite(end) and inside and outside):
         assert gap is None

@@ -1,5 +1,7 @@
 """The bits of a list are those of its parts, and say what they are meant to say."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -101,7 +103,7 @@ def test_slips_cost_what_was_said_while_few_and_less_when_they_recur(n):
     assert wrong_bits(0.0, float(n), 3, n) == 0.0
     bits = [wrong_bits(float(k), float(n - k), 3, n) for k in range(n + 1)][:200]
     assert all(0.0 < b <= WRONG * k + 1e-9 for k, b in enumerate(bits) if k)
-    assert all(b > a for a, b in zip(bits, bits[1:60], strict=False))
+    assert all(b > a for a, b in pairwise(bits[:60]))
     if n <= 100:
         assert bits == [WRONG * k for k in range(len(bits))]
     if n == 5000:

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from random_tables import random_cases, table_of
 
 from gaitwright.induction.cases import Cases
-from gaitwright.induction.scan import NEVER, between, best_intervals
+from gaitwright.induction.scan import NEVER, best_intervals, between
 
 seeds = st.integers(0, 2**32 - 1)
 numbers = st.floats(-1e300, 1e300)

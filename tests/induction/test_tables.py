@@ -1,9 +1,11 @@
 """A table that grows case by case is the table of all its cases."""
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from gaitwright.errors import WrongUse
 from gaitwright.induction.cases import NOBODY, Cases, no_cases, picked, with_case
 
 seeds = st.integers(0, 2**32 - 1)
@@ -76,3 +78,9 @@ def test_one_more_case_leaves_the_table_before_it_alone():
     with_case(cases, np.array([0.0, 1.0, np.nan]), 0, 1)
     for part, copy in zip(cases, copies, strict=True):
         np.testing.assert_array_equal(part, copy)
+
+
+@pytest.mark.xfail(reason="an action beyond the next is taken in, and kernels then count beyond their arrays")
+def test_an_action_that_leaves_one_out_is_refused():
+    with pytest.raises(WrongUse, match="action"):
+        with_case(no_cases(READS, PRICE), np.zeros(3), 2, NOBODY)
