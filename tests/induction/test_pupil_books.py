@@ -5,15 +5,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from pupils import School, plain_columns, taught, three_thresholds
-from random_tables import decisions_of, places_of, table_of
+from random_tables import decisions_of, places_of, random_lines, table_of
 from test_rule_standings import check_same
 
 from gaitwright.induction.cases import NOBODY
-from gaitwright.induction.decision_list import Lines
-from gaitwright.induction.pupil import FAR, LEAST, RIVALS, Lesson, Pupil
+from gaitwright.induction.decision_list import Bound, Lines, RuleLine
+from gaitwright.induction.pupil import FAR, LEAST, RIVALS, SHORTER, Lesson, Pupil
 from gaitwright.induction.repair import bits_of
 from gaitwright.induction.revision import PLACES, revised
-from gaitwright.induction.standing import standing_of
+from gaitwright.induction.standing import standing_of, upper_marks
 
 seeds = st.integers(0, 2**32 - 1)
 
@@ -111,12 +111,50 @@ PUPIL = taught(three_thresholds, 150, 5, 4).pupil
 def test_what_is_sure_is_said_by_all_rivals_and_by_a_firm_rule(seed):
     asked = np.random.default_rng(seed).random((5, 15))
     actions, rules, sure = PUPIL.decide_all(asked)
+    meant = places_of(upper_marks(PUPIL.lines, PUPIL.cases, PUPIL.standing.fire), asked)
     for k in np.flatnonzero(sure):
+        assert meant[k] >= rules[k]  # no earlier rule could be meant as well
         assert PUPIL.standing.firm[rules[k]]
         assert all(decisions_of(rival, asked[:, [k]])[0] == actions[k] for rival in PUPIL.rivals)
         mine = (PUPIL.standing.fire == rules[k]) & PUPIL.standing.right
         values = PUPIL.cases.x[:, mine]
         assert (values.min(axis=1) <= asked[:, k]).all() and (asked[:, k] <= values.max(axis=1)).all()
+
+
+def test_nothing_is_sure_where_an_earlier_rule_could_be_meant_as_well():
+    pupil = Pupil(plain_columns(1))
+    for k, value in enumerate([0.1, 0.2, 0.3, 0.5, 0.65, 0.7, 0.8, 0.95] * 5):
+        pupil.hear(Lesson(np.array([value]), int(0.6 <= value < 0.9), NOBODY, k))
+    pupil.lines, pupil.rivals = Lines((RuleLine(1, (Bound(0, 0.6, 0.9),)),), 0), []
+    pupil.standing = standing_of(pupil.lines, pupil.cases, pupil.scene)
+    asked = np.array([[0.15, 0.49, 0.55, 0.62, 0.72, 0.85, 0.93, 0.95, 0.97]])
+    actions, _, sure = pupil.decide_all(asked)
+    assert actions.tolist() == [0, 0, 0, 1, 1, 1, 0, 0, 0]
+    # From 0.5 on the rule might reach, up to 0.95; and beyond that nothing was seen.
+    assert sure.tolist() == [True, True, False, False, True, False, False, True, False]
+
+
+@settings(max_examples=10)
+@given(seeds)
+def test_the_shortest_list_found_is_adopted_and_the_others_are_rivals(seed):
+    rng = np.random.default_rng(seed)
+    pupil = Pupil(plain_columns(4), 0)
+    for lesson in lessons(seed, 30):
+        pupil.hear(lesson)
+    actions, own = len(pupil.cases.named), pupil.lines
+    found = [random_lines(rng, 3, 4, actions) for _ in range(3)] + [own] + pupil.rivals
+    found[0] = Lines((), int(rng.integers(0, actions)))
+    pupil.lines, pupil.rivals = (found[0], []) if rng.random() < 0.5 else (own, pupil.rivals)
+    was = pupil.lines
+    others = [lines for lines in found if lines != was]
+    least = min(bits_of(lines, pupil.cases) for lines in others)
+    adopted = pupil.adopt(others)
+    now = bits_of(pupil.lines, pupil.cases)
+    assert adopted == (least < bits_of(was, pupil.cases) - SHORTER)
+    assert now == least if adopted else pupil.lines == was
+    near = [lines for lines in found if lines != pupil.lines and bits_of(lines, pupil.cases) <= now + FAR]
+    weighed = sorted(bits_of(lines, pupil.cases) for lines in set(near))[:RIVALS]
+    assert [bits_of(lines, pupil.cases) for lines in pupil.rivals] == weighed
 
 
 def test_rivals_are_other_lists_hardly_longer():
