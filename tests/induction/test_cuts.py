@@ -77,12 +77,6 @@ def test_lists_of_one_condition_each_decide_as_before(seed):
     check_settled(cases, lines, settled(lines, cases, known))
 
 
-TWICE_OUT = pytest.mark.xfail(
-    reason="a case that two bounds of a rule keep out is in neither gap, and both bounds may move past it"
-)
-
-
-@TWICE_OUT
 def test_a_case_that_two_bounds_keep_out_stays_out():
     x = np.array([[0.0, 10.0, 0.0, 2.0], [0.0, 0.0, 10.0, 2.0]])
     cases = table_of(x, np.array([0, 1, 1, 1]))
@@ -90,7 +84,6 @@ def test_a_case_that_two_bounds_keep_out_stays_out():
     check_settled(cases, lines, settled(lines, cases, ((), ())))
 
 
-@TWICE_OUT
 def test_lists_of_several_conditions_decide_as_before():
     for seed in (*range(60), 255, 502, 873):
         cases, lines, known = drawn(seed, most=3)

@@ -31,7 +31,7 @@ def test_a_rule_that_is_left_out_costs_and_decides_nothing(seed):
     rules, n, holds, fire = in_arrays(lines, cases)
     without = int(rng.integers(0, n))
     first_that_holds(holds, n, without, fire)
-    bits = list_bits(cases, rules, n, fire, without, cases.n)
+    bits = list_bits(cases, rules, n, fire, without)
     left = Lines(lines.rules[:without] + lines.rules[without + 1 :], lines.otherwise)
     assert bits == pytest.approx(bits_by_hand(left, cases), rel=1e-12)
 

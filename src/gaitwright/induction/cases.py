@@ -6,6 +6,8 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
+from gaitwright.errors import WrongUse
+
 NOBODY = -1
 """The reason of a case for which none was given."""
 
@@ -52,8 +54,13 @@ def no_cases(reads: Bool[np.ndarray, "columns facts"], price: Float[np.ndarray, 
 
 
 def with_case(cases: Cases, row: Float[np.ndarray, " columns"], action: int, reason: int) -> Cases:
-    """The table with one more case; an action that is new to it may be the next one only."""
+    """The table with one more case. Raises `WrongUse` for an action that is neither known nor the next."""
     n, named = cases.n, cases.named
+    if len(row) != len(cases.price) or not 0 <= action <= len(named) or reason >= cases.reads.shape[1]:
+        raise WrongUse(
+            f"a case has {len(cases.price)} columns, an action up to {len(named)} and a reason below "
+            f"{cases.reads.shape[1]}; got {len(row)}, {action} and {reason}"
+        )
     if action == len(named):
         named = np.vstack([named, np.zeros((1, len(row)), np.bool_)])
     if reason != NOBODY:

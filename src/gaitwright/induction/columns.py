@@ -70,14 +70,14 @@ class Column:
         given = [facts.get(source) for source in self.sources]
         if self.values:
             return float("nan") if given[0] is None else float(given[0] in self.values)
-        numbers = [float("nan") if not isinstance(fact, (int, float)) else float(fact) for fact in given]
+        numbers = [float("nan") if fact is None or isinstance(fact, str) else float(fact) for fact in given]
         return FORMS[self.form](*numbers)
 
 
 FORMS: dict[str, Callable[..., float]] = {
     "is": lambda x: x,
-    "size": lambda x: x if x > 0.0 else -x,
-    "larger": lambda x, y: x if x > y else y,
+    "size": lambda x: abs(x) + 0.0,
+    "larger": lambda x, y: float(np.maximum(x, y)),
     "difference": lambda x, y: x - y,
     "time": lambda way, speed: way / max(speed, LEAST_SPEED),
 }

@@ -57,7 +57,7 @@ class Lines:
 def as_arrays(lines: Lines, room: int = ROOM) -> tuple[DecisionList, int]:
     """The list with room for more rules behind, and how many there are."""
     n = len(lines.rules)
-    rules = room_for(n + room + 1)
+    rules = room_for(np.int64(n + room + 1))
     for k, rule in enumerate(lines.rules):
         rules.action[k], rules.conditions[k] = rule.action, len(rule.bounds)
         for j, bound in enumerate(rule.bounds):
@@ -94,8 +94,9 @@ def actions_of(lines: Lines, places: Int[np.ndarray, " cases"]) -> Int[np.ndarra
 
 
 # --- kernels ---------------------------------------------------------------------------------------
-NONE = -1
-"""No rule is left out."""
+NONE, FIRST = np.int64(-1), np.int64(0)
+"""No rule; the first one. Of a type that numba makes no further version of a kernel for, as it does for
+literal numbers."""
 
 
 @kernel
@@ -144,7 +145,7 @@ def put_in(rules, n, holds, at, rule, x):
     rules.action[n + 1] = rules.action[n]
     for r in range(n, at, -1):
         move_line(rules, holds, r - 1, r)
-    copy_line(rule, 0, rules, at)
+    copy_line(rule, FIRST, rules, at)
     match(x, rules, at, holds[at])
     return n + 1
 
@@ -162,29 +163,29 @@ def take_out(rules, n, holds, at):
 def shift(rules, holds, start, end):
     """Moves a rule to another place; those between close up."""
     spare, held = one_line(), holds[start].copy()
-    copy_line(rules, start, spare, 0)
+    copy_line(rules, start, spare, FIRST)
     step = 1 if end > start else -1
     for r in range(start, end, step):
         move_line(rules, holds, r + step, r)
-    copy_line(spare, 0, rules, end)
-    holds[end] = held
+    copy_line(spare, FIRST, rules, end)
+    for i in range(len(held)):
+        holds[end, i] = held[i]
 
 
 @kernel
 def move_line(rules, holds, start, end):
     """Copies a rule, and where it holds, over another place."""
     copy_line(rules, start, rules, end)
-    holds[end] = holds[start]
+    for i in range(holds.shape[1]):
+        holds[end, i] = holds[start, i]
 
 
 @kernel
 def copy_line(source, start, target, end):
     """Copies a rule from list to list."""
-    target.column[end], target.low[end], target.high[end] = (
-        source.column[start],
-        source.low[start],
-        source.high[start],
-    )
+    for j in range(MOST_CONDITIONS):
+        target.column[end, j], target.low[end, j] = source.column[start, j], source.low[start, j]
+        target.high[end, j] = source.high[start, j]
     target.conditions[end], target.action[end] = source.conditions[start], source.action[start]
 
 
@@ -193,7 +194,8 @@ def copy_list(source, held, n, target, holds):
     """Copies a whole list, its last line and where its rules hold."""
     for r in range(n):
         copy_line(source, r, target, r)
-        holds[r] = held[r]
+        for i in range(holds.shape[1]):
+            holds[r, i] = held[r, i]
     target.action[n] = source.action[n]
 
 
@@ -213,4 +215,4 @@ def room_for(places):
 @kernel
 def one_line():
     """Room for one rule."""
-    return room_for(1)
+    return room_for(np.int64(1))

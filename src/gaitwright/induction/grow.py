@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from gaitwright.induction.decision_list import MOST_CONDITIONS, copy_line, match, one_line
+from gaitwright.induction.decision_list import FIRST, MOST_CONDITIONS, NONE, copy_line, match, one_line
 from gaitwright.induction.length import bound_bits, name_bits, rule_bits
 from gaitwright.induction.scan import NEVER, best_intervals
 from gaitwright.numerics.compiled import kernel
@@ -14,7 +14,7 @@ AS_MANY = 2
 
 
 @kernel
-def grow(cases, active, gain, loss, strict, beam, use, in_all, rule):
+def grow(cases, active, gain, loss, strict, beam, use, rule):
     """Writes the rule that is worth most among the active cases into `rule`; how many bits that saves, 0.0
     where no rule saves any.
 
@@ -25,12 +25,12 @@ def grow(cases, active, gain, loss, strict, beam, use, in_all, rule):
     columns, n = cases.x.shape
     actions = len(cases.named)
     score, low, high = np.empty((3, columns, actions))
-    price, best = bound_bits(in_all), 0.0
+    price, best = bound_bits(cases), 0.0
     seed, holds, costs = one_line(), np.empty((1, n), np.bool_), np.empty(n)
     for factor in strict:
         costs[:] = factor * loss
-        best_intervals(cases, active, gain, costs, -1, use, price, score, low, high)
-        charge_names(cases, score, -1)
+        best_intervals(cases, active, gain, costs, NONE, use, price, score, low, high)
+        charge_names(cases, score, NONE)
         for _ in range(beam):
             place = np.argmax(score)
             c, a = place // actions, place % actions
@@ -39,25 +39,25 @@ def grow(cases, active, gain, loss, strict, beam, use, in_all, rule):
             score[c, a] = NEVER
             seed.conditions[0], seed.action[0] = 1, a
             seed.column[0, 0], seed.low[0, 0], seed.high[0, 0] = c, low[c, a], high[c, a]
-            best = refine(cases, active, gain, loss, strict, use, in_all, seed, holds, rule, best)
+            best = refine(cases, active, gain, loss, strict, use, seed, holds, rule, best)
     return best
 
 
 @kernel
-def refine(cases, active, gain, loss, strict, use, in_all, seed, holds, rule, best):
+def refine(cases, active, gain, loss, strict, use, seed, holds, rule, best):
     """Adds conditions to a seed while that saves bits; keeps the best rule so far, and its worth."""
     columns, actions, a = len(cases.x), len(cases.named), seed.action[0]
     score, low, high = np.empty((3, columns, actions))
-    price, tried, found = bound_bits(in_all), one_line(), one_line()
+    price, tried, found = bound_bits(cases), one_line(), one_line()
     inside, costs = np.empty(len(active), np.bool_), np.empty(len(active))
-    worth, wrong = worth_of(cases, active, gain, loss, in_all, seed, holds)
+    worth, wrong = worth_of(cases, active, gain, loss, seed, holds)
     if worth > best:
         best = worth
-        copy_line(seed, 0, rule, 0)
+        copy_line(seed, FIRST, rule, FIRST)
     for _ in range(DEEPER):
         if wrong <= 0.0:
             break
-        match(cases.x, seed, 0, inside)
+        match(cases.x, seed, FIRST, inside)
         inside &= active
         top, rest = NEVER, 0.0
         for factor in strict:
@@ -69,19 +69,19 @@ def refine(cases, active, gain, loss, strict, use, in_all, seed, holds, rule, be
                 if score[c, a] <= 0.5 * NEVER:
                     break
                 score[c, a] = NEVER
-                copy_line(seed, 0, tried, 0)
+                copy_line(seed, FIRST, tried, FIRST)
                 if narrow(tried, c, low[c, a], high[c, a]):
-                    more, errs = worth_of(cases, active, gain, loss, in_all, tried, holds)
+                    more, errs = worth_of(cases, active, gain, loss, tried, holds)
                     if more > top:
                         top, rest = more, errs
-                        copy_line(tried, 0, found, 0)
+                        copy_line(tried, FIRST, found, FIRST)
         if top <= worth + 1e-9:
             break
         worth, wrong = top, rest
-        copy_line(found, 0, seed, 0)
+        copy_line(found, FIRST, seed, FIRST)
         if worth > best:
             best = worth
-            copy_line(seed, 0, rule, 0)
+            copy_line(seed, FIRST, rule, FIRST)
     return best
 
 
@@ -95,10 +95,10 @@ def charge_names(cases, score, only):
 
 
 @kernel
-def worth_of(cases, active, gain, loss, in_all, rule, holds):
+def worth_of(cases, active, gain, loss, rule, holds):
     """Bits that a rule saves among the active cases, and the weight of those it gets wrong."""
-    match(cases.x, rule, 0, holds[0])
-    bits, wrong = -rule_bits(cases, rule, 0, in_all), 0.0
+    match(cases.x, rule, FIRST, holds[0])
+    bits, wrong = -rule_bits(cases, rule, FIRST), 0.0
     for i in range(len(active)):
         if active[i] and holds[0, i]:
             if cases.action[i] == rule.action[0]:

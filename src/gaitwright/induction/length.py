@@ -6,7 +6,7 @@ that is decided otherwise than it was taught costs bits; fewer bits in all is th
 
 import numpy as np
 
-from gaitwright.induction.decision_list import first_that_holds
+from gaitwright.induction.decision_list import NONE, first_that_holds
 from gaitwright.numerics.compiled import kernel
 
 NAMED = 1.0
@@ -18,14 +18,15 @@ SECOND, SECOND_MORE = 1.0, 2.0
 WRONG = 10.0
 """Bits of a case that is decided otherwise than it was taught, while there are few."""
 TRUSTING, DOUBTING, LEAST_TRUST = 100.0, 600.0, 0.25
-"""Up to so many cases every word of the teacher is believed at `WRONG` bits; beyond, more and more only at
-the rate at which she is contradicted, and from the second number on that counts for all but this share."""
+"""Up to so many cases every word of the teacher is believed at `WRONG` bits. Beyond, the rate at which she is
+contradicted counts more and more, as if it were all that counts from the second number on; but never for more
+than all but this share."""
 
 
 @kernel
-def bound_bits(cases_in_all):
+def bound_bits(cases):
     """Bits of a condition's first and second bound."""
-    doublings = np.log2(max(cases_in_all, 2))
+    doublings = np.log2(max(cases.x.shape[1], 2))
     return BOUND * doublings + BOUND_MORE, SECOND * doublings + SECOND_MORE
 
 
@@ -37,9 +38,9 @@ def name_bits(cases, action, column):
 
 
 @kernel
-def rule_bits(cases, rules, r, in_all):
+def rule_bits(cases, rules, r):
     """Bits of a rule."""
-    first, second = bound_bits(in_all)
+    first, second = bound_bits(cases)
     bits = np.log2(len(cases.named) + 1.0) + 2.0
     for j in range(rules.conditions[r]):
         bits += name_bits(cases, rules.action[r], rules.column[r, j]) + first
@@ -49,7 +50,7 @@ def rule_bits(cases, rules, r, in_all):
 
 
 @kernel
-def wrong_bits(wrong, right, actions, in_all):
+def wrong_bits(wrong, right, cases):
     """Bits of the cases that a list decides otherwise, from their weight and that of the others.
 
     Between believing each of them and coding them at the rate at which they occur: a teacher slips now and
@@ -58,9 +59,9 @@ def wrong_bits(wrong, right, actions, in_all):
     total = wrong + right
     rate = (wrong + 0.5) / (total + 20.0)
     coded = -wrong * np.log2(rate) - right * np.log2(1.0 - rate)
-    coded += wrong * np.log2(max(actions - 1.0, 1.0)) + 0.5 * np.log2(total + 1.0)
+    coded += wrong * np.log2(max(len(cases.named) - 1.0, 1.0)) + 0.5 * np.log2(total + 1.0)
     believed = WRONG * wrong
-    trust = min(1.0, max(LEAST_TRUST, (DOUBTING - in_all) / (DOUBTING - TRUSTING)))
+    trust = min(1.0, max(LEAST_TRUST, (DOUBTING - cases.x.shape[1]) / (DOUBTING - TRUSTING)))
     return trust * believed + (1.0 - trust) * min(believed, coded)
 
 
@@ -76,7 +77,7 @@ def unread_bits(cases, rules, n, fire, i):
 
 
 @kernel
-def list_bits(cases, rules, n, fire, without, in_all):
+def list_bits(cases, rules, n, fire, without):
     """Bits of a list and of what it gets wrong, where `fire` says which rule decides each case; `without`
     is a rule that is not counted."""
     right, wrong, bits = 0.0, 0.0, 0.0
@@ -86,15 +87,15 @@ def list_bits(cases, rules, n, fire, without, in_all):
             bits += unread_bits(cases, rules, n, fire, i)
         else:
             wrong += cases.weight[i]
-    bits += wrong_bits(wrong, right, len(cases.named), in_all)
+    bits += wrong_bits(wrong, right, cases)
     for r in range(n):
         if r != without:
-            bits += rule_bits(cases, rules, r, in_all)
+            bits += rule_bits(cases, rules, r)
     return bits
 
 
 @kernel
-def bits_as_it_is(cases, rules, n, holds, fire, in_all):
+def bits_as_it_is(cases, rules, n, holds, fire):
     """`list_bits` of the whole list, with `fire` filled in."""
-    first_that_holds(holds, n, -1, fire)
-    return list_bits(cases, rules, n, fire, -1, in_all)
+    first_that_holds(holds, n, NONE, fire)
+    return list_bits(cases, rules, n, fire, NONE)

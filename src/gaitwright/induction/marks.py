@@ -29,7 +29,7 @@ class Gap:
 
 
 def settled(lines: Lines, cases: Cases, known: Sequence[Sequence[float]], before: Lines) -> Lines:
-    """The list with each cut where a person would put it, deciding all cases as it does.
+    """The list with each cut where a person would put it; what it decides rightly it still does.
 
     `known` are the bounds that have a name, per column: one that lies in the gap is taken, else the number
     of fewest digits in its middle. Rules that were so before keep their cuts.
@@ -38,13 +38,13 @@ def settled(lines: Lines, cases: Cases, known: Sequence[Sequence[float]], before
     for r, rule in enumerate(lines.rules):
         if rule in kept:
             continue
-        bounds = []
-        for j, bound in enumerate(rule.bounds):
+        for j, bound in enumerate(rule.bounds):  # one after the other: a case may be kept out by two
             upper, lower = (gap_of(rule, j, r, cases, fire, side) for side in (1, -1))
             high = cut_in(upper.inner, upper.outer, known[bound.column]) if upper else bound.high
             low = cut_in(lower.outer, lower.inner, known[bound.column]) if lower else bound.low
-            bounds.append(Bound(bound.column, low, high))
-        lines = with_rule(lines, r, replace(rule, bounds=tuple(bounds)))
+            moved = Bound(bound.column, low, high)
+            rule = replace(rule, bounds=(*rule.bounds[:j], moved, *rule.bounds[j + 1 :]))  # noqa: PLW2901
+        lines = with_rule(lines, r, rule)
     return lines
 
 
@@ -80,15 +80,15 @@ def all_but(rule: RuleLine, j: int, x: Float[np.ndarray, "columns cases"]) -> Bo
 
 
 def cut_in(low: float, high: float, known: Sequence[float] = ()) -> float:
-    """A number with low < cut ≤ high: a known one, else the one of fewest digits in the middle, else the
-    middle itself."""
-    for cut in known:
-        if low < cut <= high:
-            return float(cut)
+    """A number with low < cut ≤ high: of the known ones the nearest to the middle, else the one of fewest
+    digits there, else the middle itself."""
+    inside = [cut for cut in known if low < cut <= high]
+    if inside:
+        return float(min(inside, key=lambda cut: abs(cut - 0.5 * (low + high))))
     edge = 0.5 * (1.0 - MIDDLE) * (high - low)
     middle = low + 0.5 * (high - low)
     for digits in range(-6, MOST_DIGITS):
-        cut = round(middle, digits)
+        cut = round(middle, digits) + 0.0  # no −0.0
         if low + edge <= cut <= high - edge and low < cut <= high:
             return cut
     return middle if middle > low else high

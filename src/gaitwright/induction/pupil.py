@@ -9,6 +9,7 @@ from jaxtyping import Bool, Float, Int
 from gaitwright.induction.cases import NOBODY, Cases, no_cases, with_case
 from gaitwright.induction.columns import Vocabulary
 from gaitwright.induction.decision_list import Lines, actions_of, fired
+from gaitwright.induction.drift import WINDOW, Drift
 from gaitwright.induction.marks import settled
 from gaitwright.induction.repair import bits_of, repaired
 from gaitwright.induction.revision import FEW, begun, revised, sample
@@ -24,9 +25,12 @@ RIPE = 40
 """Rounds after which a draft is compared with the list."""
 RIVALS, FAR = 6, 40.0
 """Other lists that are kept, and how many bits longer than the best they may be."""
-LOSS, REGAIN, LEAST = 0.7, 1.0 / 0.7, 0.05
-"""What a sure decision that proves wrong does to the weight of all that spoke for it, what each right one
-gives back, and the least that is left."""
+DOUBT, NEIGHBOURS = 0.25, 0.1
+"""What a change of mind leaves of the weight of what was taught before it, and the share of all cases that is
+most alike to a surprise."""
+LOSS, REGAIN, LEAST, ALIKE, FEWEST = 0.5, 1.1, 0.05, 0.15, 3
+"""What a decision that proves wrong leaves of the weight of the cases most like it, what each right one gives
+back, the least that is left; and the share of a rule's cases that are most alike, and how few may be."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,6 +80,11 @@ class Pupil:
     cases: Cases = field(init=False)
     scene: Int[np.ndarray, " cases"] = field(init=False)
     standing: Standing = field(init=False)
+    drift: Drift = field(default_factory=Drift)
+    since: int = 0
+    """The first case after the teacher changed her mind."""
+    surprises: list[bool] = field(default_factory=list)
+    """Whether each lesson was another than what had been decided."""
     _widest: Lines | None = field(default=None, init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -124,30 +133,57 @@ class Pupil:
         self._widest = None
         self.cases = with_case(self.cases, lesson.row, lesson.action, lesson.reason)
         self.scene = np.append(self.scene, lesson.scene)
-        is_right = verdict.action == lesson.action
+        is_right = verdict.action == lesson.action or (self.cases.n == 1 and not lesson.action)
         self.standing.take_in(self.cases, lesson.scene, verdict.rule, is_right)
         self.trust(verdict, is_right)
+        self.surprises.append(not is_right)
+        if self.drift.notes(not is_right):
+            self.doubt_the_past()
         how = ""
         if not is_right:
             self.lines, how = repaired(self.lines, self.cases, self.cases.n - 1)
         was_revised = self.revise(EACH_LESSON if is_right else EACH_MISTAKE)
-        if self.lines != before:
+        if self.lines != before or self.since == self.cases.n - WINDOW:
             self.lines = settled(self.lines, self.cases, self.vocabulary.known, before)
-            self.standing = standing_of(self.lines, self.cases, self.scene)
+            self.rivals = [lines for lines in self.rivals if lines != self.lines]
+            self.standing = standing_of(self.lines, self.cases, self.scene, self.since)
         return Heard(before, self.lines, verdict, how, was_revised, tuple(self.standing.aside.tolist()))
 
     def trust(self, verdict: Verdict, is_right: bool) -> None:
-        """Weighs anew what spoke for a decision: a sure one that is contradicted loses, a right one regains.
+        """Weighs anew what spoke for a decision: a right one regains a little; of one that proves wrong,
+        where the rule stood firm, the cases most like the new one lose.
 
-        After some contradictions in a row the old mind weighs little, and a slip is soon forgotten.
+        So a slip is soon forgotten, and a change of mind is followed where it took place.
         """
-        if not is_right and not verdict.sure:
+        if not is_right and not (verdict.action != NOBODY and self.standing.firm[verdict.rule]):
             return
-        mine = (self.standing.fire == verdict.rule) & (self.cases.action == verdict.action)
-        mine[-1] = False
-        factor = REGAIN if is_right else LOSS
-        weight = np.where(mine, np.clip(self.cases.weight * factor, LEAST, 1.0), self.cases.weight)
+        mine = np.flatnonzero((self.standing.fire == verdict.rule) & (self.cases.action == verdict.action))
+        mine = mine[mine < self.cases.n - 1]
+        if not is_right:
+            most = max(FEWEST, round(ALIKE * len(mine)))
+            mine = most_alike(self.cases, self.cases.n - 1, mine, self.columns_looked_at, most)
+        weight = self.cases.weight.copy()
+        weight[mine] = np.clip(weight[mine] * (REGAIN if is_right else LOSS), LEAST, 1.0)
         self.cases = self.cases._replace(weight=weight)
+
+    def doubt_the_past(self) -> None:
+        """After a change of mind: what was taught before, is most like what came as a surprise and says
+        otherwise, weighs little until it proves right again. The past alone makes nothing sure."""
+        weight, last = self.cases.weight.copy(), self.cases.n - 1
+        self.since = self.cases.n - WINDOW
+        before = np.arange(self.since)
+        most = round(NEIGHBOURS * self.cases.n)
+        for k in range(last, last - WINDOW, -1):
+            if self.surprises[k]:
+                others = before[self.cases.action[before] != self.cases.action[k]]
+                near = most_alike(self.cases, k, others, self.columns_looked_at, most)
+                weight[near] = np.maximum(DOUBT * weight[near], LEAST)
+        self.cases = self.cases._replace(weight=weight)
+
+    @property
+    def columns_looked_at(self) -> list[int]:
+        """The columns that the list asks for."""
+        return sorted({bound.column for rule in self.lines.rules for bound in rule.bounds})
 
     def revise(self, rounds: int) -> bool:
         """Searches on, from the list and from a draft of another; whether a shorter one was adopted."""
@@ -159,7 +195,7 @@ class Pupil:
         found = [better] if saved > SHORTER else []
         if self.draft is None:
             few = sample(self.cases, wrong, len(self.lines.rules), seed, FEW)
-            self.draft, self.age = begun(few, self.drafts), 0
+            self.draft, self.age = begun(few, self.drafts, seed), 0
             self.drafts += 1
         else:
             self.draft = revised(self.draft, some, often * DRAFT, seed)[0]
@@ -182,3 +218,15 @@ class Pupil:
         near = [lines for lines in others if lines != self.lines and bits[lines] <= bits[self.lines] + FAR]
         self.rivals = sorted(near, key=lambda lines: bits[lines])[:RIVALS]
         return self.lines != old
+
+
+def most_alike(
+    cases: Cases, case: int, among: Int[np.ndarray, " some"], columns: Sequence[int], most: int
+) -> Int[np.ndarray, " near"]:
+    """Of some cases those most like one: nearest in rank, over the columns that matter."""
+    far = np.zeros(len(among))
+    for c in columns:
+        values = cases.x[c][cases.order[c]]
+        here, there = (np.searchsorted(values, v) for v in (cases.x[c, case], cases.x[c, among]))
+        far += np.abs(there - here) / cases.n
+    return among[np.argsort(far, kind="stable")[:most]]

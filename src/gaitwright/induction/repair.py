@@ -9,6 +9,7 @@ from jaxtyping import Bool, Float, Int
 from gaitwright.induction.cases import Cases, picked
 from gaitwright.induction.decision_list import (
     MOST_CONDITIONS,
+    NONE,
     Bound,
     Lines,
     RuleLine,
@@ -42,8 +43,8 @@ def repaired(lines: Lines, cases: Cases, case: int) -> tuple[Lines, str]:
     rules, n = as_arrays(lines, 0)
     holds, fire = np.empty((n, cases.n), np.bool_), np.empty(cases.n, np.int64)
     match_all(cases.x, rules, n, holds)
-    first_that_holds(holds, n, -1, fire)
-    least = float(list_bits(cases, rules, n, fire, -1, cases.n))
+    first_that_holds(holds, n, NONE, fire)
+    least = float(list_bits(cases, rules, n, fire, NONE))
     best, how = lines, ""
     for candidate, kind in candidates(lines, cases, case, holds, fire):
         bits = bits_of(candidate, cases)
@@ -57,7 +58,7 @@ def bits_of(lines: Lines, cases: Cases) -> float:
     rules, n = as_arrays(lines, 0)
     fire = np.empty(cases.n, np.int64)
     fire_all(cases.x, rules, n, fire)
-    return float(list_bits(cases, rules, n, fire, -1, cases.n))
+    return float(list_bits(cases, rules, n, fire, NONE))
 
 
 def candidates(
@@ -130,7 +131,7 @@ def narrowings(
     value, sums = np.take_along_axis(x, order, axis=1), np.cumsum(lost[order], axis=1)
     whole = sums[:, -1:]
     found = [*cuts(value, sums, cases.x[:, case], -1), *cuts(value, whole - sums, cases.x[:, case], 1)]
-    first, _ = bound_bits(cases.n)
+    first, _ = bound_bits(cases)
     held = {bound.column for bound in rule.bounds}
     ranked = sorted(
         (cost + (0.0 if c in held else first + float(name_bits(cases, rule.action, c))), c, side, cut)
@@ -183,6 +184,6 @@ def with_new_rule(
     gain = np.where(right, 0.05, WRONG) * some.weight
     loss = np.where(right, WRONG, 0.0) * some.weight
     rule, use, active = one_line(), np.ones(len(some.price), np.bool_), np.ones(some.n, np.bool_)
-    if grow(some, active, gain, loss, PLAIN, WIDTH, use, cases.n, rule) <= 0.0:
+    if grow(some, active, gain, loss, PLAIN, WIDTH, use, rule) <= 0.0:
         return None
     return replace(lines, rules=(*lines.rules[:at], line_of(rule, 0), *lines.rules[at:]))

@@ -6,7 +6,7 @@ from gaitwright.induction.cases import Cases, picked
 from gaitwright.induction.decision_list import Lines, as_arrays, as_lines, match_all, room_for
 from gaitwright.induction.length import bits_as_it_is
 from gaitwright.induction.prune import prune
-from gaitwright.induction.search import improve
+from gaitwright.induction.search import draw_from, improve
 from gaitwright.induction.starts import cover, from_tree
 
 ENOUGH, FEW, LOOKS = 1500, 500, 120_000
@@ -28,21 +28,22 @@ def revised(lines: Lines, cases: Cases, rounds: int, seed: int) -> tuple[Lines, 
     rounds = max(1, round(rounds * min(1.0, QUICKLY / (cases.n * max(n, 1)))))
     holds, fire = np.empty((len(rules.action) - 1, cases.n), np.bool_), np.empty(cases.n, np.int64)
     match_all(cases.x, rules, n, holds)
-    before = bits_as_it_is(cases, rules, n, holds, fire, cases.n)
-    n, bits = improve(cases, rules, n, holds, rounds, seed, cases.n, fire)
+    before = bits_as_it_is(cases, rules, n, holds, fire)
+    n, bits = improve(cases, rules, n, holds, rounds, seed, fire)
     return as_lines(rules, n), float(before - bits)
 
 
-def begun(cases: Cases, kind: int) -> Lines:
+def begun(cases: Cases, kind: int, seed: int) -> Lines:
     """A list from nothing, pruned."""
+    draw_from(seed)
     how, setting = STARTS[kind % len(STARTS)]
-    rules, fire = room_for(PLACES), np.empty(cases.n, np.int64)
+    rules, fire = room_for(np.int64(PLACES)), np.empty(cases.n, np.int64)
     holds, use = np.empty((PLACES - 1, cases.n), np.bool_), np.ones(len(cases.price), np.bool_)
     if how == "tree":
         n = from_tree(cases, rules, holds, setting, use, fire)
     else:
-        n = cover(cases, rules, 0, holds, setting, use, cases.n, fire)
-    n, _ = prune(cases, rules, n, holds, cases.n, fire)
+        n = cover(cases, rules, 0, holds, setting, use, fire)
+    n, _ = prune(cases, rules, n, holds, fire)
     return as_lines(rules, n)
 
 

@@ -55,8 +55,8 @@ class Standing:
         self.high[rule] = np.fmax(self.high[rule], cases.x[:, -1])
 
 
-def standing_of(lines: Lines, cases: Cases, scene: Int[np.ndarray, " cases"]) -> Standing:
-    """How the rules of a list stand."""
+def standing_of(lines: Lines, cases: Cases, scene: Int[np.ndarray, " cases"], since: int = 0) -> Standing:
+    """How the rules of a list stand; only cases from the place `since` on count as often and wide enough."""
     fire = fired(lines, cases.x)
     right = actions_of(lines, fire) == cases.action
     n = len(lines.rules) + 1
@@ -64,11 +64,12 @@ def standing_of(lines: Lines, cases: Cases, scene: Int[np.ndarray, " cases"]) ->
     scenes: list[set[int]] = []
     for r in range(n):
         mine = np.flatnonzero(right & (fire == r))
-        scenes.append(set(scene[mine].tolist()))
+        scenes.append(set(scene[mine[mine >= since]].tolist()))
         if len(mine):
             values = cases.x[:, mine]
             low[r], high[r] = np.fmin.reduce(values, axis=1), np.fmax.reduce(values, axis=1)
-    rights, wrongs = (np.bincount(fire[which], minlength=n) for which in (right, ~right))
+    late = np.arange(cases.n) >= since
+    rights, wrongs = (np.bincount(fire[which & late], minlength=n) for which in (right, ~right))
     return Standing(fire, right, low, high, rights, wrongs, scenes)
 
 

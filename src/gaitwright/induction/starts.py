@@ -6,7 +6,10 @@ Covering finds short rules that stand alone; a tree finds exceptions to exceptio
 import numpy as np
 
 from gaitwright.induction.decision_list import (
+    FIRST,
     MOST_CONDITIONS,
+    NONE,
+    copy_line,
     first_that_holds,
     one_line,
     put_in,
@@ -25,7 +28,7 @@ NODES = 256
 
 
 @kernel
-def cover(cases, rules, n, holds, boldness, use, in_all, fire):
+def cover(cases, rules, n, holds, boldness, use, fire):
     """Puts rules behind the first n of a list until none saves anything; how many there are then.
 
     `boldness` is how much a case that is decided rightly counts, against the bits of its action's rarity.
@@ -33,17 +36,17 @@ def cover(cases, rules, n, holds, boldness, use, in_all, fire):
     size = len(fire)
     active, gain = np.empty(size, np.bool_), np.empty(size)
     rule = one_line()
-    first_that_holds(holds, n, -1, fire)
+    first_that_holds(holds, n, NONE, fire)
     for i in range(size):
         active[i] = fire[i] == n
     while n < len(holds) - SPARE and active.any():
         rarity_gains(cases, active, boldness, gain)
-        if grow(cases, active, gain, cases.weight, STRICT, BEAM, use, in_all, rule) <= 0.0:
+        if grow(cases, active, gain, cases.weight, STRICT, BEAM, use, rule) <= 0.0:
             break
         n = put_in(rules, n, holds, n, rule, cases.x)
         for i in range(size):
             active[i] = active[i] and not holds[n - 1, i]
-    first_that_holds(holds, n, -1, fire)
+    first_that_holds(holds, n, NONE, fire)
     set_otherwise(cases, rules, n, fire)
     return n
 
@@ -79,7 +82,7 @@ def from_tree(cases, rules, holds, least_gain, use, fire):
 
     A node is cut where that saves most bits of its actions' entropy, if it saves more than `least_gain`.
     """
-    size, nodes = len(fire), room_for(NODES)
+    size, nodes = len(fire), room_for(np.int64(NODES))
     node, active = np.zeros(size, np.int64), np.empty(size, np.bool_)
     waiting, last, made, n = np.zeros(NODES, np.int64), 0, 1, 0
     weights, leaf = np.zeros(len(holds)), one_line()
@@ -104,7 +107,7 @@ def from_tree(cases, rules, holds, least_gain, use, fire):
             leaf_of(nodes, k, np.argmax(counts), leaf)
             n = put_by_weight(cases, rules, n, holds, leaf, counts.sum(), weights)
     n -= 1  # the heaviest leaf is the last line
-    first_that_holds(holds, n, -1, fire)
+    first_that_holds(holds, n, NONE, fire)
     return n
 
 
@@ -125,8 +128,8 @@ def put_by_weight(cases, rules, n, holds, leaf, weight, weights):
 @kernel
 def leaf_of(nodes, k, action, leaf):
     """A node as a rule."""
-    leaf.column[0], leaf.low[0], leaf.high[0] = nodes.column[k], nodes.low[k], nodes.high[k]
-    leaf.conditions[0], leaf.action[0] = nodes.conditions[k], action
+    copy_line(nodes, k, leaf, FIRST)
+    leaf.action[0] = action
 
 
 @kernel
@@ -141,8 +144,7 @@ def cut_node(nodes, k, new, c, cut):
     if at == nodes.conditions[k]:
         nodes.column[k, at], nodes.low[k, at], nodes.high[k, at] = c, -np.inf, np.inf
         nodes.conditions[k] += 1
-    nodes.column[new], nodes.low[new], nodes.high[new] = nodes.column[k], nodes.low[k], nodes.high[k]
-    nodes.conditions[new] = nodes.conditions[k]
+    copy_line(nodes, k, nodes, new)
     nodes.high[k, at] = min(nodes.high[k, at], cut)
     nodes.low[new, at] = max(nodes.low[new, at], cut)
     return True
