@@ -74,20 +74,20 @@ def test_no_number_in_the_middle_has_fewer_digits(seed):
 @given(seeds)
 def test_lists_of_one_condition_each_decide_as_before(seed):
     cases, lines, known = drawn(seed, most=1)
-    check_settled(cases, lines, settled(lines, cases, known))
+    check_settled(cases, lines, settled(lines, cases, known, Lines()))
 
 
 def test_a_case_that_two_bounds_keep_out_stays_out():
     x = np.array([[0.0, 10.0, 0.0, 2.0], [0.0, 0.0, 10.0, 2.0]])
     cases = table_of(x, np.array([0, 1, 1, 1]))
     lines = Lines((RuleLine(0, (Bound(0, -INF, 1.0), Bound(1, -INF, 1.0))),), 1)
-    check_settled(cases, lines, settled(lines, cases, ((), ())))
+    check_settled(cases, lines, settled(lines, cases, ((), ()), Lines()))
 
 
 def test_lists_of_several_conditions_decide_as_before():
     for seed in (*range(60), 255, 502, 873):
         cases, lines, known = drawn(seed, most=3)
-        check_settled(cases, lines, settled(lines, cases, known))
+        check_settled(cases, lines, settled(lines, cases, known, Lines()))
 
 
 def check_settled(cases: Cases, before: Lines, after: Lines) -> None:
@@ -110,7 +110,7 @@ def test_a_known_bound_in_the_gap_is_taken():
     lines = Lines((RuleLine(1, (Bound(0, 0.9, INF),)),), 0)
 
     def low_with(*known: float) -> float:
-        return settled(lines, cases, (known,)).rules[0].bounds[0].low
+        return settled(lines, cases, (known,), Lines()).rules[0].bounds[0].low
 
     assert 0.3 < low_with() <= 1.0 and low_with() in (0.6, 0.7)
     assert low_with(1.0) == 1.0 and low_with(0.45) == 0.45

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from random_tables import bits_by_hand, doubt, in_arrays, random_cases, random_lines, table_of
 
+from gaitwright.induction.cases import Cases
 from gaitwright.induction.decision_list import Bound, Lines, RuleLine, first_that_holds
 from gaitwright.induction.length import WRONG, bits_as_it_is, list_bits, wrong_bits
 from gaitwright.induction.repair import bits_of
@@ -40,7 +41,7 @@ def test_the_bits_of_a_list_fill_in_what_fires():
     rng = np.random.default_rng(5)
     cases, lines = random_cases(rng, 25, 3, 3), random_lines(rng, 4, 3, 3)
     rules, n, holds, fire = in_arrays(lines, cases)
-    bits = bits_as_it_is(cases, rules, n, holds, fire, cases.n)
+    bits = bits_as_it_is(cases, rules, n, holds, fire)
     again = np.zeros_like(fire)
     first_that_holds(holds, n, -1, again)
     np.testing.assert_array_equal(fire, again)
@@ -98,10 +99,16 @@ def test_a_named_column_costs_less_and_another_reason_costs_a_bit():
     assert bits_of(THRESHOLD, table_of(x, action, reason=reason)) == plain + 1.0
 
 
+def so_many(n: int) -> Cases:
+    """A table of n cases and three actions."""
+    return table_of(np.zeros((3, n)), np.zeros(n, int), 3)
+
+
 @pytest.mark.parametrize("n", [1, 99, 100, 101, 300, 600, 5000])
 def test_slips_cost_what_was_said_while_few_and_less_when_they_recur(n):
-    assert wrong_bits(0.0, float(n), 3, n) == 0.0
-    bits = [wrong_bits(float(k), float(n - k), 3, n) for k in range(n + 1)][:200]
+    cases = so_many(n)
+    assert wrong_bits(0.0, float(n), cases) == 0.0
+    bits = [wrong_bits(float(k), float(n - k), cases) for k in range(n + 1)][:200]
     assert all(0.0 < b <= WRONG * k + 1e-9 for k, b in enumerate(bits) if k)
     assert all(b > a for a, b in pairwise(bits[:60]))
     if n <= 100:
@@ -112,6 +119,6 @@ def test_slips_cost_what_was_said_while_few_and_less_when_they_recur(n):
 
 
 def test_doubt_grows_with_the_cases_and_not_in_jumps():
-    bits = np.array([wrong_bits(30.0, 600.0, 3, n) for n in range(90, 700)])
+    bits = np.array([wrong_bits(30.0, 600.0, so_many(n)) for n in range(90, 700)])
     steps = np.diff(bits)
     assert (steps <= 1e-9).all() and steps.min() > -1.0

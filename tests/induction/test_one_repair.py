@@ -18,7 +18,7 @@ from random_tables import (
 )
 
 from gaitwright.induction.cases import Cases, picked
-from gaitwright.induction.decision_list import Bound, Lines, RuleLine
+from gaitwright.induction.decision_list import Bound, Lines, RuleLine, fired
 from gaitwright.induction.repair import bits_of, candidates, repaired, with_new_rule
 
 seeds = st.integers(0, 2**32 - 1)
@@ -187,8 +187,8 @@ def test_a_new_rule_is_only_made_where_it_saves_bits():
     x, action = two_thresholds(1)
     cases = table_of(x, action, 3)
     right = as_seen(x, action)
-    assert with_new_rule(right, cases, 0, -1) is None
+    assert with_new_rule(right, cases, fired(right, x), 0, -1) is None
     first = replace(right, rules=right.rules[1:])
-    longer = with_new_rule(first, cases, 0, -1)
+    longer = with_new_rule(first, cases, fired(first, x), 0, -1)
     assert longer is not None and longer.rules[1:] == first.rules
     assert bits_of(longer, cases) < bits_of(first, cases)

@@ -10,6 +10,7 @@ from test_rule_standings import check_same
 
 from gaitwright.induction.cases import NOBODY
 from gaitwright.induction.decision_list import Bound, Lines, RuleLine
+from gaitwright.induction.drift import Drift
 from gaitwright.induction.pupil import FAR, LEAST, RIVALS, SHORTER, Lesson, Pupil
 from gaitwright.induction.repair import bits_of
 from gaitwright.induction.revision import PLACES, revised
@@ -185,3 +186,12 @@ def test_nothing_grows_without_end_where_nothing_is_to_be_learned(kind):
     assert all(len(rival.rules) < PLACES for rival in school.pupil.rivals)
     empty = bits_of(Lines((), 0), school.pupil.cases)
     assert bits_of(school.pupil.lines, school.pupil.cases) < empty
+
+
+def test_a_change_of_mind_is_noticed_and_slips_are_none():
+    rng = np.random.default_rng(0)
+    steady, changed = Drift(), Drift()
+    assert not any(steady.notes(bool(slip)) for slip in rng.random(600) < 0.05)
+    assert not any(changed.notes(bool(slip)) for slip in rng.random(150) < 0.05)
+    noticed = [changed.notes(bool(slip)) for slip in rng.random(60) < 0.6]
+    assert any(noticed) and noticed.index(True) < 30

@@ -55,6 +55,7 @@ def sample(cases: Cases, wrong: np.ndarray, rules: int, seed: int, most: int = E
     most = max(FEW, min(most, LOOKS // max(rules, 1)))
     others = np.ones(cases.n, np.bool_)
     others[wrong] = False
-    missed = wrong[-most // 2 :]
-    drawn = np.random.default_rng(seed).choice(np.flatnonzero(others), most - len(missed), replace=False)
+    missed, rest = wrong[-(most // 2) :], np.flatnonzero(others)
+    many = min(most - len(missed), len(rest))
+    drawn = np.random.default_rng(seed).choice(rest, many, replace=False)
     return picked(cases, np.sort(np.concatenate([missed, drawn])))
