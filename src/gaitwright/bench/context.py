@@ -1,7 +1,7 @@
 """What a claim is measured with: starts and seconds, workers, and a voice."""
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import perf_counter
@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.status import Status
 
 from gaitwright.bench.trial import DT, Outcome, Trial, simulate
-from gaitwright.bench.workers import Workers
+from gaitwright.bench.workers import Found, Given, Workers
 from gaitwright.numerics.compiled import is_warm
 
 EVERY = 15.0
@@ -73,6 +73,13 @@ class Context:
         self.voice.say(f"{what}: {len(trials)} starts")
         return self.workers.outcomes(
             trials, lambda done: self.voice.say(f"{what}: {done} of {len(trials)} starts", now=False)
+        )
+
+    def each(self, what: str, task: Callable[[Given], Found], given: Sequence[Given]) -> list[Found]:
+        """What the workers make of each thing given, in their order."""
+        self.voice.say(f"{what}: {len(given)} to do")
+        return self.workers.each(
+            task, given, lambda done: self.voice.say(f"{what}: {done} of {len(given)}", now=False)
         )
 
     def warm_up(self) -> None:

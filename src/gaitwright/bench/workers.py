@@ -1,4 +1,4 @@
-"""Trials side by side: one process for each core, the same outcomes for any number of them."""
+"""Work side by side: one process for each core, the same outcomes for any number of them."""
 
 import multiprocessing
 import os
@@ -8,9 +8,12 @@ import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from types import TracebackType
+from typing import TypeVar
 
 from gaitwright.bench.trial import Outcome, Trial, simulate
 
+Given = TypeVar("Given")
+Found = TypeVar("Found")
 MOST = 8
 """Processes at most: each takes some 300 MB."""
 
@@ -41,10 +44,16 @@ class Workers:
 
     def outcomes(self, trials: Sequence[Trial], tell: Callable[[int], None]) -> list[Outcome]:
         """What became of each trial, in their order; `tell` hears how many are done."""
+        return self.each(simulate, trials, tell)
+
+    def each(
+        self, task: Callable[[Given], Found], given: Sequence[Given], tell: Callable[[int], None]
+    ) -> list[Found]:
+        """What the task makes of each thing given, in their order; `tell` hears how many are done."""
         if self._pool is None:
             context = multiprocessing.get_context("spawn")
             self._pool = ProcessPoolExecutor(self.number, context, initializer=obey)
-        futures = [self._pool.submit(simulate, trial) for trial in trials]
+        futures = [self._pool.submit(task, one) for one in given]
         for done, future in enumerate(as_completed(futures), start=1):
             future.result()
             tell(done)

@@ -11,13 +11,23 @@ from gaitwright.bench.peers.script import Script
 
 TIMEOUT_S = 120.0
 SCRIPTS = {name: Path(__file__).with_name(f"{name}_rules.py") for name in ("clips", "sklearn")}
+TEACHERS = Path(__file__).with_name("sklearn_teachers.py")
+"""Another script of scikit-learn's: what it learns from the labels of test teachers."""
 
 
 class RulesPeer:
     """A rule engine or learner in an environment of its own; a context."""
 
-    def __init__(self, name: str, problem: Mapping[str, Any]) -> None:
+    def __init__(
+        self,
+        name: str,
+        problem: Mapping[str, Any],
+        script: Path | None = None,
+        timeout_s: float = TIMEOUT_S,
+    ) -> None:
+        """`script`: another one than the peer's own; `timeout_s`: how long an answer may take [s]."""
         self.name, self.problem = name, problem
+        self.script, self.timeout_s = script or SCRIPTS[name], timeout_s
         self.reason: str | None = None
         self.greeting: dict = {}
         self._script: Script | None = None
@@ -39,16 +49,16 @@ class RulesPeer:
         """Starts the script and hears its first message."""
         python = peer_python(self.name)
         (folder / "problem.json").write_text(json.dumps(dict(self.problem)), encoding="utf-8")
-        command = [str(python), str(SCRIPTS[self.name]), str(folder / "problem.json")]
+        command = [str(python), str(self.script), str(folder / "problem.json")]
         self._script = Script(command, folder / "stderr.txt")
-        self.greeting = self._script.hear(TIMEOUT_S)
+        self.greeting = self._script.hear(self.timeout_s)
 
     def ask(self, command: str) -> dict | None:
         """The answer to a line; `None`, and `reason` set for good, where there is none."""
         if self._script is None or self.reason is not None:
             return None
         try:
-            return self._script.ask(command, TIMEOUT_S)
+            return self._script.ask(command, self.timeout_s)
         except PeerUnavailable as problem:
             self.reason = str(problem)
             return None
