@@ -16,10 +16,10 @@ from random_tables import (
 )
 
 from gaitwright.induction.cases import Cases
-from gaitwright.induction.decision_list import Lines, as_lines, room_for
+from gaitwright.induction.decision_list import ROOM, Lines, as_lines, room_for
 from gaitwright.induction.prune import prune
 from gaitwright.induction.repair import bits_of
-from gaitwright.induction.revision import ROOM, STARTS, begun, revised, sample
+from gaitwright.induction.revision import STARTS, begun, revised, sample
 from gaitwright.induction.search import improve
 from gaitwright.induction.starts import cover, from_tree
 

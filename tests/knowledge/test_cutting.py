@@ -1,5 +1,7 @@
 """Interval trees with more bounds, marks that are runs, and how they are spoken of."""
 
+from dataclasses import replace
+
 import pytest
 
 from gaitwright.errors import WrongUse
@@ -79,3 +81,10 @@ def test_a_number_without_a_tree_gets_one():
     grown = tree_at("gap", "m", (0.2, 0.1), "a gap is", "gap")
     assert grown.bounds == (0.1, 0.2) and grown.source == "gap"
     assert spoken(grown, grown.leaves[2]) == "a gap is at least 0.2 m"
+
+
+def test_what_says_nothing_of_its_number_is_told_by_it():
+    swaying = interval_tree("stability", "", (0.3,), ("steady", "stumbling"), about="it is")
+    grown = replace(cut_at(swaying, (0.1,)), source="sway")
+    assert spoken(grown, "stumbling") == "it is stumbling"
+    assert spoken(grown, grown.label_of(run_of(grown, 0.1, float("inf")))) == "its sway is at least 0.1"

@@ -12,7 +12,7 @@ from gaitwright.numerics.compiled import kernel
 MOST_CONDITIONS = 6
 """Conditions of one rule."""
 ROOM = 8
-"""Places for rules that a search may add to a list before it is copied to a larger one."""
+"""Places for rules that a search may add to a list."""
 
 
 class DecisionList(NamedTuple):

@@ -92,6 +92,17 @@ class Pupil:
         self.scene = np.zeros(0, np.int64)
         self.standing = standing_of(self.lines, self.cases, self.scene)
 
+    @staticmethod
+    def who_knows(
+        vocabulary: Vocabulary, cases: Cases, scene: Int[np.ndarray, " cases"], lines: Lines, seed: int = 0
+    ) -> "Pupil":
+        """A pupil who was taught these cases, in these scenes, and says them by this list."""
+        pupil = Pupil(vocabulary, seed, lines)
+        pupil.cases, pupil.scene = cases, scene
+        pupil.surprises = [False] * cases.n
+        pupil.standing = standing_of(lines, cases, scene)
+        return pupil
+
     # --- deciding ----------------------------------------------------------------------------------
     def decide(self, row: Float[np.ndarray, " columns"]) -> Verdict:
         """What the list does in a case; nothing before the first lesson."""

@@ -18,13 +18,11 @@ PLACES = 64
 """Rules of a list that is begun anew, at most."""
 STARTS = (("tree", 0.0), ("cover", 2.0), ("tree", 8.0), ("cover", 1.0), ("cover", 4.0))
 """How lists are begun, one after the other."""
-ROOM = 8
-"""Rules that a search may add to a list."""
 
 
 def revised(lines: Lines, cases: Cases, rounds: int, seed: int) -> tuple[Lines, float]:
     """The list after so many rounds of search, and how many bits that saved."""
-    rules, n = as_arrays(lines, ROOM)
+    rules, n = as_arrays(lines)
     rounds = max(1, round(rounds * min(1.0, QUICKLY / (cases.n * max(n, 1)))))
     holds, fire = np.empty((len(rules.action) - 1, cases.n), np.bool_), np.empty(cases.n, np.int64)
     match_all(cases.x, rules, n, holds)

@@ -57,7 +57,11 @@ def run_of(tree: FeatureTree, low: float, high: float) -> int:
 def spoken(tree: FeatureTree, mark: str) -> str:
     """A mark as a person says it: "the road is flat", "the way left is under 0.4 body lengths"."""
     about = tree.about or f"{tree.name} is"
-    return f"{about if is_word(tree, mark) else about.removesuffix(' a')} {value_text(tree, mark)}"
+    if is_word(tree, mark):
+        return f"{about} {mark}"
+    # "it is stumbling", but "its sway is at least 0.2"; "the speed is a walking pace", but "… is under 1"
+    about = f"its {tree.source or tree.name} is" if about == "it is" else about.removesuffix(" a")
+    return f"{about} {value_text(tree, mark)}"
 
 
 def value_text(tree: FeatureTree, mark: str) -> str:

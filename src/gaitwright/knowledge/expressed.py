@@ -83,10 +83,13 @@ def forest_for(lists: Sequence[Lines], vocabulary: Vocabulary, wording: Wording)
             if not column.values:
                 cuts = needed.setdefault(wording.of(column), (column, set()))[1]
                 cuts.update(cut for cut in (bound.low, bound.high) if np.isfinite(cut))
-    trees = [
-        cut_at(tree, sorted(needed.pop(tree.name)[1])) if tree.name in needed else tree
-        for tree in wording.forest.trees
-    ]
+    trees = []
+    for tree in wording.forest.trees:
+        if tree.name in needed:
+            column, cuts = needed.pop(tree.name)
+            source = tree.source or ("" if column.name == tree.name else column.name)
+            tree = replace(cut_at(tree, sorted(cuts)), source=source)  # noqa: PLW2901
+        trees.append(tree)
     new = [
         tree_at(name, column.unit, sorted(cuts), f"{column.name} is", column.name)
         for name, (column, cuts) in needed.items()

@@ -7,6 +7,7 @@ from math import nan
 import numpy as np
 
 from gaitwright.bench.context import Context
+from gaitwright.bench.evidence.large_book import large_book
 from gaitwright.bench.evidence.report_cards import SILENT, STRONGEST, TOLD, Cards, mean_of, worst_of
 from gaitwright.bench.evidence.taught import Marks, School, taught, warm_up
 from gaitwright.bench.measurement import Figure, Wanted, at_least, at_most
@@ -50,6 +51,7 @@ def measure(context: Context) -> Iterator[Figure]:
     yield from of_rules(cards)
     yield from (row(cards, teacher) for teacher in cards.teachers)
     yield everything(cards)
+    yield large_book(context)
 
 
 def schools_of(context: Context) -> list[School]:
