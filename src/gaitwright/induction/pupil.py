@@ -237,7 +237,7 @@ def most_alike(
     """Of some cases those most like one: nearest in rank, over the columns that matter."""
     far = np.zeros(len(among))
     for c in columns:
-        values = cases.x[c][cases.order[c]]
-        here, there = (np.searchsorted(values, v) for v in (cases.x[c, case], cases.x[c, among]))
+        x, order = cases.x[c], cases.order[c]
+        here, there = (np.searchsorted(x, v, sorter=order) for v in (x[case], x[among]))
         far += np.abs(there - here) / cases.n
     return among[np.argsort(far, kind="stable")[:most]]
