@@ -25,6 +25,8 @@ RIPE = 40
 """Rounds after which a draft is compared with the list."""
 RIVALS, FAR = 6, 40.0
 """Other lists that are kept, and how many bits longer than the best they may be."""
+MANY = 16
+"""Columns over which cases are compared at most."""
 DOUBT, NEIGHBOURS = 0.25, 0.1
 """What a change of mind leaves of the weight of what was taught before it, and the share of all cases that is
 most alike to a surprise."""
@@ -172,7 +174,8 @@ class Pupil:
         mine = mine[mine < self.cases.n - 1]
         if not is_right:
             most = max(FEWEST, round(ALIKE * len(mine)))
-            mine = most_alike(self.cases, self.cases.n - 1, mine, self.columns_looked_at, most)
+            matter = self.columns_that_matter(verdict.rule)
+            mine = most_alike(self.cases, self.cases.n - 1, mine, matter, most)
         weight = self.cases.weight.copy()
         weight[mine] = np.clip(weight[mine] * (REGAIN if is_right else LOSS), LEAST, 1.0)
         self.cases = self.cases._replace(weight=weight)
@@ -187,14 +190,18 @@ class Pupil:
         for k in range(last, last - WINDOW, -1):
             if self.surprises[k]:
                 others = before[self.cases.action[before] != self.cases.action[k]]
-                near = most_alike(self.cases, k, others, self.columns_looked_at, most)
+                matter = self.columns_that_matter(int(self.standing.fire[k]))
+                near = most_alike(self.cases, k, others, matter, most)
                 weight[near] = np.maximum(DOUBT * weight[near], LEAST)
         self.cases = self.cases._replace(weight=weight)
 
-    @property
-    def columns_looked_at(self) -> list[int]:
-        """The columns that the list asks for."""
-        return sorted({bound.column for rule in self.lines.rules for bound in rule.bounds})
+    def columns_that_matter(self, rule: int) -> list[int]:
+        """The columns that the list asks for; where these are many, those that one of its rules asks for."""
+        rules = self.lines.rules
+        asked = {bound.column for line in rules for bound in line.bounds}
+        if len(asked) > MANY and rule < len(rules):
+            asked = {bound.column for bound in rules[rule].bounds}
+        return sorted(asked)[:MANY]
 
     def revise(self, rounds: int) -> bool:
         """Searches on, from the list and from a draft of another; whether a shorter one was adopted."""
