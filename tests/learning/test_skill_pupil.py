@@ -5,7 +5,7 @@ import pytest
 
 from gaitwright.description.load import load_robot
 from gaitwright.knowledge.compiled import compile_book, decide
-from gaitwright.knowledge.expressed import shown
+from gaitwright.knowledge.expressed import number_columns, shown
 from gaitwright.knowledge.json_form import dumps, loads
 from gaitwright.knowledge.modifier import audit
 from gaitwright.knowledge.rules import Instance
@@ -54,10 +54,10 @@ def test_trips_teach_what_no_trip_showed(pupil, teacher, exam):
 
 def test_the_rulebook_decides_as_the_pupil_does(pupil, exam):
     book = pupil.rulebook()
-    compiled = compile_book(book)
+    compiled, numbers = compile_book(book), number_columns(VOCABULARY, WORDING)
     for moment, choice in zip(exam, pupil.choose_all(exam), strict=True):
         instance = Instance("", "positive", moment.situation, facts_of(moment))
-        situation = shown(book.forest, VOCABULARY, WORDING, instance, "positive").situation
+        situation = shown(book.forest, VOCABULARY, numbers, instance, "positive").situation
         rule, _ = decide(compiled, dict(situation.items()))
         assert rule is not None and book[rule].action == choice.action
 

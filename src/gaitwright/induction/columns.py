@@ -15,7 +15,6 @@ from jaxtyping import Bool, Float
 from gaitwright.errors import WrongUse
 
 Fact = str | float
-Kind = str
 WAY, SPEED = "way", "speed"
 """Kinds of numbers whose ratio is a time."""
 SIZE_BITS, PAIR_BITS = 1.0, 2.0
@@ -34,7 +33,7 @@ class Quantity:
 
     name: str
     unit: str = ""
-    kind: Kind = ""
+    kind: str = ""
     signed: bool = False
     known: tuple[float, ...] = ()
 

@@ -1,7 +1,7 @@
 """An ordered list of rules, as arrays: the first rule all of whose conditions hold decides, else the last
 line."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -52,6 +52,11 @@ class Lines:
 
     rules: tuple[RuleLine, ...] = ()
     otherwise: int = 0
+
+
+def with_rule(lines: Lines, r: int, rule: RuleLine) -> Lines:
+    """The list with one rule replaced."""
+    return replace(lines, rules=(*lines.rules[:r], rule, *lines.rules[r + 1 :]))
 
 
 def as_arrays(lines: Lines, room: int = ROOM) -> tuple[DecisionList, int]:

@@ -26,7 +26,7 @@ def grow(cases, active, gain, loss, strict, beam, use, rule):
     actions = len(cases.named)
     score, low, high = np.empty((3, columns, actions))
     price, best = bound_bits(cases), 0.0
-    seed, holds, costs = one_line(), np.empty((1, n), np.bool_), np.empty(n)
+    seed, holds, costs = one_line(), np.empty(n, np.bool_), np.empty(n)
     for factor in strict:
         costs[:] = factor * loss
         best_intervals(cases, active, gain, costs, NONE, use, price, score, low, high)
@@ -97,10 +97,10 @@ def charge_names(cases, score, only):
 @kernel
 def worth_of(cases, active, gain, loss, rule, holds):
     """Bits that a rule saves among the active cases, and the weight of those it gets wrong."""
-    match(cases.x, rule, FIRST, holds[0])
+    match(cases.x, rule, FIRST, holds)
     bits, wrong = -rule_bits(cases, rule, FIRST), 0.0
     for i in range(len(active)):
-        if active[i] and holds[0, i]:
+        if active[i] and holds[i]:
             if cases.action[i] == rule.action[0]:
                 bits += gain[i]
             else:

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from gaitwright.induction.cases import Cases
-from gaitwright.induction.decision_list import Bound, Lines, RuleLine, fired
+from gaitwright.induction.decision_list import Bound, Lines, RuleLine, fired, with_rule
 
 MIDDLE = 0.6
 """A cut with few digits is looked for in this share of the gap."""
@@ -20,7 +20,7 @@ MOST_DIGITS = 12
 
 @dataclass(frozen=True, slots=True)
 class Gap:
-    """The two marks of one bound: the case (its place) at each and its number; −1 where there is none."""
+    """The two marks of one bound: at each the number, and the place of the case that it is of."""
 
     inner: float
     inner_case: int
@@ -46,11 +46,6 @@ def settled(lines: Lines, cases: Cases, known: Sequence[Sequence[float]], before
             rule = replace(rule, bounds=(*rule.bounds[:j], moved, *rule.bounds[j + 1 :]))  # noqa: PLW2901
         lines = with_rule(lines, r, rule)
     return lines
-
-
-def with_rule(lines: Lines, r: int, rule: RuleLine) -> Lines:
-    """The list with one rule replaced."""
-    return replace(lines, rules=(*lines.rules[:r], rule, *lines.rules[r + 1 :]))
 
 
 def gap_of(rule: RuleLine, j: int, r: int, cases: Cases, fire: np.ndarray, side: int) -> Gap | None:

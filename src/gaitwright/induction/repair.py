@@ -20,12 +20,12 @@ from gaitwright.induction.decision_list import (
     line_of,
     match_all,
     one_line,
+    with_rule,
 )
 from gaitwright.induction.grow import grow
 from gaitwright.induction.length import WRONG, bound_bits, list_bits, name_bits
-from gaitwright.induction.marks import with_rule
 from gaitwright.induction.scan import between
-from gaitwright.induction.search import PLAIN, WIDTH
+from gaitwright.induction.search import PLAIN, SLIGHT, WIDTH
 
 NARROWINGS, WIDENINGS = 3, 3
 """So many of the best narrowings are weighed in full, and so many rules that lack least."""
@@ -181,7 +181,7 @@ def with_new_rule(
     there = np.flatnonzero(fire >= at if only < 0 else fire == only)[-MOST_LOOKED_AT:]
     some = picked(cases, there)
     right = actions_of(lines, fire[there]) == some.action
-    gain = np.where(right, 0.05, WRONG) * some.weight
+    gain = np.where(right, SLIGHT, WRONG) * some.weight
     loss = np.where(right, WRONG, 0.0) * some.weight
     rule, use, active = one_line(), np.ones(len(some.price), np.bool_), np.ones(some.n, np.bool_)
     if grow(some, active, gain, loss, PLAIN, WIDTH, use, rule) <= 0.0:

@@ -30,8 +30,8 @@ def best_intervals(cases, active, gain, loss, only, use, price, score, low, high
 
 RUN, BEGAN, SUM, LEAST, LEAST_AT, BEST, BEST_LOW, BEST_HIGH, PREFIX = range(9)
 """Rows of a scan's state, by action: the sum of the run that ends here and where it began; the sum of all so
-far, the least that was, and where; the best run, between two bounds; the best sum from the lower end on,
-whose place is kept in `tops`."""
+far, the least that was, and where; the best interval that ended, and its bounds; the best sum from the lower
+end on."""
 
 
 @kernel

@@ -26,6 +26,8 @@ PLAIN = np.array([1.0])
 PLAIN.flags.writeable = False  # as kernels see it: one version of each serves both
 WIDTH = 2
 """Seeds that are tried for a rule put in."""
+SLIGHT = 0.05
+"""Bits that a new rule gains where the list is right already: of two rules the wider one is put in."""
 WARMTH = 3.0
 """Bits by which a round may make a list longer at first; it falls to nothing in the last."""
 SHARE = 0.35
@@ -141,7 +143,7 @@ def exchanged(cases, rules, n, holds, at, only, cost, use, fire):
     for i in range(size):
         active[i] = fire[i] >= at if only < 0 else fire[i] == only
         right = rules.action[fire[i]] == cases.action[i]
-        gain[i] = (0.05 if right else cost) * cases.weight[i]
+        gain[i] = (SLIGHT if right else cost) * cases.weight[i]
         loss[i] = cost * cases.weight[i] if right else 0.0
     if grow(cases, active, gain, loss, PLAIN, WIDTH, use, rule) <= 0.0:
         return n

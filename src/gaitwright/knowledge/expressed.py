@@ -53,7 +53,8 @@ def expressed(
 ) -> Rulebook:
     """The rulebook that decides as the list does."""
     forest = forest_for([lines], vocabulary, wording)
-    sets = leaf_sets(forest, cases, vocabulary, wording, taught.instances)
+    numbers = number_columns(vocabulary, wording)
+    sets = leaf_sets(forest, cases, numbers, taught.instances)
     rules: list[Rule] = []
     for r in range(len(lines.rules) + 1):
         mine = np.flatnonzero(standing.right & (standing.fire == r)).tolist()
@@ -66,8 +67,8 @@ def expressed(
             name_for([taught.names[k] for k in mine], rules),
             taught.actions[action],
             marks_of(forest, upper, sets[mine]),
-            tuple(shown(forest, vocabulary, wording, taught.instances[k], "positive") for k in rights),
-            tuple(shown(forest, vocabulary, wording, taught.instances[k], "commission") for k in wrongs),
+            tuple(shown(forest, vocabulary, numbers, taught.instances[k], "positive") for k in rights),
+            tuple(shown(forest, vocabulary, numbers, taught.instances[k], "commission") for k in wrongs),
         )
         rules.append(replace(rule, choices=tuple(choice_of(forest, rule, wrong) for wrong in rule.negatives)))
     return Rulebook(forest, tuple(rules), lessons=cases.n)
@@ -97,15 +98,21 @@ def forest_for(lists: Sequence[Lines], vocabulary: Vocabulary, wording: Wording)
     return Forest((*trees, *new))
 
 
+def number_columns(vocabulary: Vocabulary, wording: Wording) -> dict[str, int]:
+    """The place of the column that each tree of numbers reads, by the trees' names."""
+    return {wording.of(c): k for k, c in enumerate(vocabulary.columns) if not c.values}
+
+
 def shown(
-    forest: Forest, vocabulary: Vocabulary, wording: Wording, instance: Instance, kind: Kind
+    forest: Forest, vocabulary: Vocabulary, numbers: Mapping[str, int], instance: Instance, kind: Kind
 ) -> Instance:
-    """The instance in a forest with more bounds: leaves that are names as they were, all others read anew."""
-    columns = {wording.of(column): column for column in vocabulary.columns if not column.values}
+    """The instance in a forest with more bounds: leaves that are names as they were, all others read anew.
+
+    `numbers` are the `number_columns`."""
     known = {}
     for tree in forest.trees:
-        if tree.bounds and tree.name in columns:
-            number = columns[tree.name].read(instance.raw)
+        if tree.bounds and tree.name in numbers:
+            number = vocabulary.columns[numbers[tree.name]].read(instance.raw)
             known[tree.name] = None if np.isnan(number) else tree.leaf_of(number)
         elif tree.name in instance.situation.trees:
             known[tree.name] = instance.situation[tree.name]
@@ -115,18 +122,16 @@ def shown(
 def leaf_sets(
     forest: Forest,
     cases: Cases,
-    vocabulary: Vocabulary,
-    wording: Wording,
+    numbers: Mapping[str, int],
     instances: Sequence[Instance],
 ) -> Int[np.ndarray, "cases trees"]:
     """The place of each case's leaf in each tree; −1 where it was not noted."""
-    columns = {wording.of(c): k for k, c in enumerate(vocabulary.columns) if not c.values}
     places = np.full((cases.n, len(forest.trees)), -1)
     for t, tree in enumerate(forest.trees):
-        if tree.bounds and tree.name in columns:
-            numbers = cases.x[columns[tree.name]]
-            found = np.searchsorted(np.array(tree.bounds), numbers, side="right")
-            places[:, t] = np.where(np.isnan(numbers), -1, found)
+        if tree.bounds and tree.name in numbers:
+            x = cases.x[numbers[tree.name]]
+            found = np.searchsorted(np.array(tree.bounds), x, side="right")
+            places[:, t] = np.where(np.isnan(x), -1, found)
         elif instances and tree.name in instances[0].situation.trees:
             leaves = (instance.situation[tree.name] for instance in instances)
             places[:, t] = [-1 if leaf is None else tree.leaf_place[leaf] for leaf in leaves]

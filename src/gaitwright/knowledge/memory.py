@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from gaitwright.errors import WrongUse
+from gaitwright.induction.columns import Fact
 
-Fact = str | float
 Memory = Mapping[str, Fact]
 """Facts by name; never changed in place."""
 

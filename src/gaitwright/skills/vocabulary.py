@@ -1,15 +1,28 @@
 """The facts that rules on skills may go by, and the columns that a pupil makes of them."""
 
 from gaitwright.induction.columns import SPEED, WAY, Names, Quantity, Vocabulary
-from gaitwright.skills.situation import DISTANCE, DOING, EFFORT, OBSTACLE, PACE, STABILITY
+from gaitwright.skills.situation import (
+    DISTANCE,
+    DOING,
+    EFFORT,
+    GAP,
+    GENTLE,
+    OBSTACLE,
+    PACE,
+    SMOOTH,
+    STABILITY,
+    STEEP,
+    STEP,
+    UNEVEN,
+)
 
 FACTS = (
     Quantity("feet down", "share of the feet"),
-    Quantity("slope", "°", signed=True, known=(-8.0, -3.0, 3.0, 8.0)),
-    Quantity("roughness", "body heights", "height", known=(0.03,)),
-    Quantity("step up", "body heights", "height", known=(0.06, 0.14)),
-    Quantity("step down", "body heights", "height", known=(0.06, 0.14)),
-    Quantity("gap", "body heights", "height", known=(0.1,)),
+    Quantity("slope", "°", signed=True, known=(-STEEP, -GENTLE, GENTLE, STEEP)),
+    Quantity("roughness", "body heights", "height", known=(SMOOTH,)),
+    Quantity("step up", "body heights", "height", known=(UNEVEN, STEP)),
+    Quantity("step down", "body heights", "height", known=(UNEVEN, STEP)),
+    Quantity("gap", "body heights", "height", known=(GAP,)),
     Quantity("remaining", "body lengths", WAY, known=DISTANCE.bounds),
     Quantity("points left", "points"),
     Quantity("arrived"),

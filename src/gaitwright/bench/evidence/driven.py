@@ -8,8 +8,8 @@ from gaitwright.bench.teachers import Facts
 from gaitwright.induction.pupil import Pupil
 from gaitwright.knowledge.memory import Action
 from gaitwright.learning.courses import course
-from gaitwright.learning.critic import DecisionPoint
 from gaitwright.learning.kinematic import Driver, moments_of
+from gaitwright.learning.skill_pupil import facts_of
 from gaitwright.model.robot import Robot
 from gaitwright.signals import Route, Sensed, SkillCall
 from gaitwright.skills.chooser import DefaultChooser
@@ -63,11 +63,6 @@ def trip(robot: Robot, number: int, driver: Driver) -> list[Facts]:
     seen = until_it_stands([facts_of(moment) for moment in moments])
     rng = np.random.default_rng([number, 8])
     return [seen[k] for k in sorted(rng.choice(len(seen), min(PER_TRIP, len(seen)), replace=False).tolist())]
-
-
-def facts_of(moment: DecisionPoint) -> Facts:
-    """What a teacher sees of a moment: the measured numbers, and what the robot has been doing."""
-    return {**moment.raw, "doing": str(moment.situation["doing"])}
 
 
 def until_it_stands(moments: Sequence[Facts]) -> Sequence[Facts]:
