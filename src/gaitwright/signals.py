@@ -145,6 +145,8 @@ class Scan:
     """World direction of the way ahead [rad]."""
     familiar: bool = False
     """Whether this trip has come along here before."""
+    friction: float = GRIP
+    """Coefficient of friction of the ground [-]."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,11 +6,12 @@ import pytest
 
 from gaitwright.cli import main, teach
 from gaitwright.description.load import load_robot
-from gaitwright.learning.apprentice import Studied
-from gaitwright.learning.school import keep
+from gaitwright.learning.notes import pupil_of
 from gaitwright.learning.teacher import ScriptedTeacher, teacher_for
 from gaitwright.skillbook.book import Skillbook
 from gaitwright.skillbook.writer import Ledger
+
+TRIPS = 2
 
 
 @pytest.fixture(scope="module")
@@ -18,14 +19,14 @@ def book(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("school") / "pupil.skills"
     with pytest.MonkeyPatch.context() as short:
         short.setattr(teach, "EXAM", 8)
-        assert main(["teach", "--lesson", "skills", "--trips", "1", "--out", str(path)]) == 0
+        assert main(["teach", "--lesson", "skills", "--trips", str(TRIPS), "--out", str(path)]) == 0
     return path
 
 
 def test_the_book_holds_every_lesson(book: Path) -> None:
     held = Skillbook.load(book)
     assert held.robot == "go2" and len(held.rulebook.rules) >= 10
-    assert held.replayed() == held.rulebook
+    assert pupil_of(held).rulebook().rules == held.rulebook.rules
 
 
 def test_it_explains_itself(book: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -33,41 +34,39 @@ def test_it_explains_itself(book: Path, capsys: pytest.CaptureFixture[str]) -> N
     assert "climb" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("lessons", [4, 30])
 def test_an_interrupted_school_goes_on_to_the_same_book(
-    book: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    lessons: int,
+    book: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
-    again, words = (
-        tmp_path / "again.skills",
-        ["teach", "--trips", "1", "--out", str(tmp_path / "again.skills")],
-    )
+    again = tmp_path / "again.skills"
+    words = ["teach", "--trips", str(TRIPS), "--out", str(again)]
     monkeypatch.setattr(teach, "EXAM", 8)
-    whole = len(Skillbook.load(book).steps)
-    for steps in (whole - 40, 30):
-        with monkeypatch.context() as cut:
-            cut.setattr(teach, "keep", interrupted_after(steps))
-            assert main(words) == 130
-    assert "goes on" in capsys.readouterr().err
-    assert main(words) == 0
-    assert Skillbook.load(again).rulebook == Skillbook.load(book).rulebook
+    with monkeypatch.context() as cut:
+        left = iter(range(lessons))
 
-
-def interrupted_after(steps: int):
-    """Puts so many steps away, then comes the interrupt."""
-    left = iter(range(steps))
-
-    def put_away(ledger: Ledger, studied: Studied) -> None:
-        for step in studied.steps:
+        def tell(self: Ledger, *told: object) -> None:
             if next(left, None) is None:
                 raise KeyboardInterrupt
-            keep(ledger, Studied(studied.rulebook, steps=(step,)))
+            told_before(self, *told)
 
-    return put_away
+        told_before = Ledger.tell
+        cut.setattr(Ledger, "tell", tell)
+        assert main(words) == 130
+    assert "goes on" in capsys.readouterr().err
+    assert len(Skillbook.load(again).steps) == 1 + lessons
+    assert main(words) == 0
+    whole, continued = Skillbook.load(book), Skillbook.load(again)
+    assert continued.rulebook == whole.rulebook and continued.pupil == whole.pupil
 
 
 def test_a_book_that_is_done_stays_as_it_is(book: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(teach, "EXAM", 8)
     before = Skillbook.load(book)
-    assert main(["teach", "--trips", "1", "--out", str(book)]) == 0
+    assert main(["teach", "--trips", str(TRIPS), "--out", str(book)]) == 0
     assert Skillbook.load(book) == before
 
 

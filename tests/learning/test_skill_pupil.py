@@ -10,13 +10,13 @@ from gaitwright.knowledge.json_form import dumps, loads
 from gaitwright.knowledge.modifier import audit
 from gaitwright.knowledge.rules import Instance
 from gaitwright.learning.exam import held_out
-from gaitwright.learning.skill_pupil import SkillPupil, facts_of
+from gaitwright.learning.school import attend
+from gaitwright.learning.skill_pupil import SkillPupil, facts_of, told_at
 from gaitwright.learning.teacher import ScriptedTeacher
-from gaitwright.learning.whole_trips import attend_trips
 from gaitwright.skills.vocabulary import VOCABULARY
 from gaitwright.skills.wording import WORDING
 
-LABELS = 400
+TRIPS = 5
 
 
 @pytest.fixture(scope="module")
@@ -26,13 +26,13 @@ def robot():
 
 @pytest.fixture(scope="module")
 def teacher():
-    return ScriptedTeacher(border=0.0)
+    return ScriptedTeacher()
 
 
 @pytest.fixture(scope="module")
 def pupil(robot, teacher):
     taught = SkillPupil(3)
-    attend_trips(taught, robot, teacher, LABELS)
+    attend(taught, robot, teacher, seed=3, trips=TRIPS, asks_always=True)
     return taught
 
 
@@ -66,7 +66,7 @@ def test_the_rulebook_is_sound_and_comes_back_from_json(pupil):
     book = pupil.rulebook()
     assert audit(book) == ()
     assert loads(dumps(book), "a test") == book
-    assert book.lessons == LABELS
+    assert book.lessons == len(pupil.told)
     assert len(book.rules) <= len(pupil.pupil.lines.rules) + 1
 
 
@@ -84,8 +84,8 @@ def test_a_reason_that_is_no_fact_counts_as_none(pupil, robot, teacher, exam):
     silent, odd = SkillPupil(1), SkillPupil(1)
     for moment in exam[:30]:
         word = teacher.ideal(moment.raw)
-        silent.hear(moment, type(word)(word.rule, word.action), "a")
-        odd.hear(moment, type(word)(word.rule, word.action, about="the weather"), "a")
+        silent.hear(told_at(moment, type(word)(word.rule, word.action), "a"))
+        odd.hear(told_at(moment, type(word)(word.rule, word.action, about="the weather"), "a"))
     assert silent.pupil.lines == odd.pupil.lines
 
 
@@ -93,7 +93,7 @@ def test_the_same_words_make_the_same_rules(robot, teacher):
     books = []
     for _ in range(2):
         taught = SkillPupil(7)
-        attend_trips(taught, robot, teacher, 80)
+        attend(taught, robot, teacher, seed=7, trips=1)
         books.append(taught.rulebook())
     assert books[0] == books[1]
 

@@ -24,7 +24,8 @@ from gaitwright.record.moment import call_at, route_at, sensed_at
 from gaitwright.record.recording import Recorder, Recording, load
 from gaitwright.session import Session
 from gaitwright.signals import Mission
-from gaitwright.skills.situation import measured, named
+from gaitwright.skills.measured import measured
+from gaitwright.skills.situation import named
 
 ROBOT = load_robot("go2")
 posix = pytest.mark.skipif(os.name != "posix", reason="limits of a process are POSIX's")

@@ -13,6 +13,7 @@ from schooling import random_lesson, teach_in
 
 from gaitwright.errors import BadFile
 from gaitwright.knowledge import json_form
+from gaitwright.learning.notes import pupil_as_noted, pupil_of
 from gaitwright.skillbook import Skillbook, import_text, open_for_learning, schema, text
 
 HERE = Path(__file__).parent
@@ -21,18 +22,21 @@ HERE = Path(__file__).parent
 @pytest.fixture
 def first(tmp_path):
     """A book as version 1 wrote it."""
-    path = tmp_path / "first.skills"
+    return written_by(1, tmp_path / "first.skills")
+
+
+def written_by(version: int, path: Path) -> Path:
+    """A book as a version wrote it."""
     with closing(sqlite3.connect(path)) as db:
-        db.executescript((HERE / "version_1.sql").read_text(encoding="utf-8"))
+        db.executescript((HERE / f"version_{version}.sql").read_text(encoding="utf-8"))
         db.execute(f"PRAGMA application_id={0x47614954}")
-        db.execute("PRAGMA user_version=1")
+        db.execute(f"PRAGMA user_version={version}")
     return path
 
 
 def test_every_version_so_far_left_a_book():
-    assert {f"version_{k + 1}.sql" for k in range(len(schema.MIGRATIONS))} == {
-        path.name for path in HERE.glob("version_?.sql")
-    }
+    versions = range(1, len(schema.MIGRATIONS) + 1)
+    assert {f"version_{k}.sql" for k in versions} == {path.name for path in HERE.glob("version_?.sql")}
     assert (HERE / f"version_{text.HEAD.split()[-1]}.txt").is_file()
     assert (HERE / f"format_{json_form.FORMAT}.json").is_file()
 
@@ -50,6 +54,15 @@ def test_a_book_of_the_first_version_loads(first):
     assert book.replayed() == book.rulebook
 
 
+def test_the_pupil_of_a_book_of_the_second_version_goes_on(tmp_path):
+    book = Skillbook.load(written_by(2, tmp_path / "second.skills"))
+    assert book == import_text((HERE / "version_2.txt").read_text(encoding="utf-8"))
+    taught, rest = pupil_as_noted(book)
+    assert (len(taught.told), len(rest), book.rulebook.lessons) == (14, 1, 15)
+    assert taught.rulebook().rules == book.rulebook.rules, "this code makes other rules of her notes"
+    assert pupil_of(book).told == [*taught.told, *rest]
+
+
 def test_a_newer_version_reads_and_teaches_older_books(first, rng, monkeypatch):
     book = Skillbook.load(first)
     more = "CREATE TABLE profiles (name TEXT NOT NULL PRIMARY KEY, content TEXT NOT NULL) STRICT"
@@ -65,5 +78,5 @@ def test_a_newer_version_reads_and_teaches_older_books(first, rng, monkeypatch):
         with closing(sqlite3.connect(first)) as db:
             assert db.execute("SELECT count(*) FROM profiles").fetchone() == (0,)
         assert Skillbook.load(first) == taught
-    with pytest.raises(BadFile, match="book version 2, this one reads up to 1"):
+    with pytest.raises(BadFile, match="book version 3, this one reads up to 2"):
         Skillbook.load(first)

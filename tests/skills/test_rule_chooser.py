@@ -14,13 +14,14 @@ from gaitwright.knowledge.correction import teach
 from gaitwright.knowledge.forest import Forest
 from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.modifier import Lesson, learn
-from gaitwright.knowledge.rules import Rulebook
+from gaitwright.knowledge.rules import QUIET, Rulebook
 from gaitwright.knowledge.trees import tree
 from gaitwright.signals import Scan
 from gaitwright.skills.chooser import DefaultChooser
 from gaitwright.skills.library import speed_scale
+from gaitwright.skills.measured import measured
 from gaitwright.skills.rule_chooser import DOING, RuleChooser, carry_out
-from gaitwright.skills.situation import FOREST, measured, named
+from gaitwright.skills.situation import FOREST, named
 from oracles import robot_called
 
 AHEAD = route((5.0, 0.0), speed=0.4 * speed_scale(DOG))
@@ -41,7 +42,7 @@ def taught(*lessons: tuple[Action, object]) -> Rulebook:
         learned = teach(book, Lesson("omission", action.skill, at, blame=blame, action=action))
         assert learned.trouble is None
         book = learned.rulebook
-    return book
+    return replace(book, rules=tuple(replace(rule, quiet=QUIET) for rule in book.rules))
 
 
 BOOK = taught((Action("trot", 0.2, 0.6), AHEAD), (Action("climb", 0.1, 0.3), STAIRS), (TURN, SIDEWAYS))

@@ -12,8 +12,9 @@ from gaitwright.knowledge.memory import Action
 from gaitwright.model.kinematics import angles, feet
 from gaitwright.numerics.geometry import GRAVITY, rotation
 from gaitwright.signals import Scan
+from gaitwright.skills.measured import measured, torque_utilisation
 from gaitwright.skills.rule_chooser import carry_out
-from gaitwright.skills.situation import FOREST, READ_FROM, measured, named, torque_utilisation, turn_of
+from gaitwright.skills.situation import FOREST, READ_FROM, named, turn_of
 from oracles import robot_called
 
 INSECT = robot_called("insect")
@@ -49,7 +50,7 @@ def test_every_moment_has_one_leaf_in_each_tree(scan, place, yaw, speed, arrived
     assert found.trees == FOREST.names and len(FOREST.names) == 12
     assert all(FOREST[tree].is_leaf(leaf) for tree, leaf in found.items())
     raw = measured(DOG, way, here)
-    assert all(math.isfinite(number) for number in raw.values()) and set(raw) == set(READ_FROM)
+    assert all(math.isfinite(number) for number in raw.values()) and set(raw) == {*READ_FROM, "grip"}
     assert named(raw) == found and set(READ_FROM.values()) == set(FOREST.names)
 
 

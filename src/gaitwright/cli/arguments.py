@@ -168,8 +168,10 @@ def add_teach(parser: argparse.ArgumentParser) -> None:
     )
     start = "go on from this skillbook, also an older one; it stays as it is (begin with no rules)"
     parser.add_argument("--from", dest="start", metavar="BOOK", help=start)
-    trips = "trips that the rules make with the teacher watching (60)"
-    parser.add_argument("--trips", type=count, default=60, metavar="N", help=trips)
+    policy = "a teacher of your own: rules in order in a TOML file, see docs/rules.md (the scripted one)"
+    parser.add_argument("--policy", metavar="FILE", help=policy)
+    trips = "trips that the pupil drives with the teacher watching (40)"
+    parser.add_argument("--trips", type=count, default=40, metavar="N", help=trips)
     parser.add_argument("--seed", type=seed, default=0, metavar="N", help="draws the trips (0)")
 
 

@@ -8,7 +8,8 @@ from gaitwright.record.metrics import attitude
 from gaitwright.record.moment import call_at, route_at, sensed_at
 from gaitwright.record.recording import Recording, load
 from gaitwright.skills.library import LIBRARY, OTHER_NAMES
-from gaitwright.skills.situation import measured, named
+from gaitwright.skills.measured import measured
+from gaitwright.skills.situation import named
 
 
 def recorded_facts(path: str, at: float | None) -> tuple[float, Memory]:

@@ -2,9 +2,8 @@
 
 import json
 from argparse import Namespace
-from collections.abc import Callable
-from contextlib import suppress
-from dataclasses import asdict, replace
+from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 
@@ -13,21 +12,25 @@ from gaitwright.cli.console import remark, show_pairs, working
 from gaitwright.cli.output import check_json, settled, write_json
 from gaitwright.cli.trips import find_robot
 from gaitwright.errors import GaitwrightError, WrongUse
-from gaitwright.knowledge.modifier import Learned
-from gaitwright.knowledge.rules import Rulebook, status
+from gaitwright.knowledge.rules import Event, Rulebook, status
+from gaitwright.knowledge.told import Told
 from gaitwright.learning.analogies import proposals
-from gaitwright.learning.apprentice import Studied
-from gaitwright.learning.exam import held_out, right_share
-from gaitwright.learning.school import Schooled, attend, catch_up, keep, reached_in
-from gaitwright.learning.teacher import teacher_for
+from gaitwright.learning.exam import Result, examined, held_out
+from gaitwright.learning.notes import notes_of, pupil_as_noted
+from gaitwright.learning.older_books import told_by
+from gaitwright.learning.policy_file import policy_in
+from gaitwright.learning.school import SchoolReport, attend, trip_of
+from gaitwright.learning.skill_pupil import SkillPupil
+from gaitwright.learning.teacher import ScriptedTeacher, teacher_for
 from gaitwright.model.robot import Robot
 from gaitwright.skillbook.book import Skillbook
+from gaitwright.skillbook.history import all_told
 from gaitwright.skillbook.writer import Ledger, open_for_learning
 from gaitwright.skills.book_trees import up_to_date
 from gaitwright.skills.situation import FOREST
 
-EXAM = 200
-"""Situations that the rules are asked about at the end."""
+EXAM = 1000
+"""Situations that the pupil is asked about at the end."""
 EVERY = 10.0
 """Progress is told this often [s]."""
 
@@ -35,14 +38,15 @@ EVERY = 10.0
 def run(args: Namespace) -> int:
     check_json(args.json)
     robot, path = find_robot(args.robot, args.package), settled(args.out, "--out")
+    teacher = teacher_for(robot) if args.policy is None else ScriptedTeacher(policy_in(args.policy, robot))
     is_new = not is_book_of(robot, path, args)
     if is_new:
         begun(robot, new_file(args.out, "skillbook").stem, args).save(path)
     began = perf_counter()
     try:
         with open_for_learning(path) as ledger:
-            schooled = taught(robot, ledger, args)
-            offered = [offer.events[0].why for offer in offer_analogies(ledger)]
+            pupil, report = taught(robot, teacher, ledger, args)
+            rulebook = ledger.book.rulebook
     except KeyboardInterrupt:
         remark(f"gaitwright: interrupted; what was learned so far is in {path}: the same command goes on")
         return 130
@@ -50,10 +54,9 @@ def run(args: Namespace) -> int:
         if is_new and len(Skillbook.load(path).steps) == 1:  # nothing was learned
             path.unlink()
         raise
-    teacher = teacher_for(robot)
     with working("the exam", worth_a_line=False):
-        right = right_share(schooled.rulebook, teacher, held_out(robot, teacher, args.seed, EXAM))
-    tell(schooled, offered, right, perf_counter() - began, args)
+        result = examined(pupil, teacher, held_out(robot, teacher, args.seed, EXAM))
+    tell(pupil, rulebook, report, result, perf_counter() - began, args)
     return 0
 
 
@@ -68,7 +71,7 @@ def is_book_of(robot: Robot, path: Path, args: Namespace) -> bool:
     if book.robot != robot.name:
         taught_on = f"the robot {book.robot}" if book.robot else "no robot"
         raise WrongUse(f"{path} exists and was taught on {taught_on}, not {robot.name}: name a new skillbook")
-    up_to_date(book.rulebook)
+    check_teachable(book, path)
     return True
 
 
@@ -77,93 +80,126 @@ def begun(robot: Robot, name: str, args: Namespace) -> Skillbook:
     if args.start is None:
         return Skillbook.new(FOREST, robot.name, name, args.seed)
     old = skillbook_of(args.start)
-    up_to_date(old.rulebook)  # refuses a book that is about something else before there is a new one
+    check_teachable(old, args.start)  # before there is a new one
     return replace(old.forked(name), robot=robot.name, seed=args.seed)
 
 
-def taught(robot: Robot, ledger: Ledger, args: Namespace) -> Schooled:
-    """The school, with progress, every step in the ledger."""
-    spoke = -EVERY
-    began = perf_counter()
-
-    def progress(what: str, done: int, of: int) -> None:
-        nonlocal spoke
-        now = perf_counter() - began
-        if now - spoke >= EVERY or done == of:
-            spoke = now
-            remark(f"{what}: {done} of {of} ({now:.0f} s)")
-
-    def school(start: Rulebook, put_away: Callable[[Studied], None]) -> Schooled:
-        reached = reached_in(ledger.book.steps, args.seed)
-        return attend(
-            robot,
-            seed=args.seed,
-            trips_watched=args.trips,
-            progress=progress,
-            keep=put_away,
-            start=start,
-            reached=reached,
+def check_teachable(book: Skillbook, path: Path | str) -> None:
+    """`WrongUse` for a book about something else, or whose rules rest on no lessons with measurements."""
+    up_to_date(book.rulebook)
+    if book.rulebook.rules and not all_told(book.steps) and not told_by(book):
+        raise WrongUse(
+            f"the rules of {path} rest on no lessons with measurements: they can drive a robot, but nobody "
+            "can go on learning from them; name a new skillbook"
         )
 
-    known, book = catch_up(ledger), ledger.book
-    first = book.steps[0].rulebook
-    if first and not book.ancestors and book.seed == args.seed and not reached_in(book.steps, args.seed):
-        with suppress(Otherwise):  # cut off among the demonstrations: the same again, and on from there
-            return school(first, Onwards(ledger))
-    return school(known, lambda studied: keep(ledger, studied))
+
+# --- the school ------------------------------------------------------------------------------------
+def taught(
+    robot: Robot, teacher: ScriptedTeacher, ledger: Ledger, args: Namespace
+) -> tuple[SkillPupil, SchoolReport]:
+    """The school, with progress, every lesson in the ledger before the next."""
+    spoke, began = -EVERY, perf_counter()
+
+    def progress(report: SchoolReport) -> None:
+        nonlocal spoke
+        settle(ledger, pupil)
+        now = perf_counter() - began
+        if now - spoke >= EVERY or report.trips == args.trips:
+            spoke = now
+            remark(f"trips: {report.trips} of {args.trips}, {wrong_in(report)} ({now:.0f} s)")
+
+    pupil, first, known = ready(ledger, args.seed)
+
+    def keep(told: Told, events: tuple[Event, ...]) -> None:
+        ledger.tell(told, events)
+
+    report = attend(pupil, robot, teacher, args.seed, args.trips, first, keep, progress, known=known)
+    settle(ledger, pupil)
+    return pupil, report
 
 
-class Otherwise(Exception):
-    """What a book holds is not what this school begins with."""
+def ready(ledger: Ledger, seed: int) -> tuple[SkillPupil, int, dict[str, Told]]:
+    """The pupil of a book, the school's trip that she goes on with, and what she was told on it already."""
+    told_again(ledger)
+    pupil, rest = pupil_as_noted(ledger.book)
+    heard = all_told(ledger.book.steps)[: len(all_told(ledger.book.steps)) - len(rest)]
+    first = after_last(heard, seed)
+    if any(trip_of(told, seed) != first for told in rest):  # told by somebody else
+        for told in rest:
+            pupil.hear(told)
+        return pupil, after_last([*heard, *rest], seed), {}
+    return pupil, first, {told.id: told for told in rest}
 
 
-class Onwards:
-    """Puts away what is learned, but for the steps that a book has already. Raises `Otherwise`, before it
-    adds anything, where these are others."""
-
-    def __init__(self, ledger: Ledger) -> None:
-        self.ledger, self.done = ledger, ledger.book.steps[1:]
-
-    def __call__(self, studied: Studied) -> None:
-        held, self.done = self.done[: len(studied.steps)], self.done[len(studied.steps) :]
-        for step, learned in zip(held, studied.steps, strict=False):
-            lesson = step.lesson or learned.lesson
-            if step.how != learned.how or (lesson.id, lesson.rule) != (
-                learned.lesson.id,
-                learned.lesson.rule,
-            ):
-                raise Otherwise
-        keep(self.ledger, replace(studied, steps=studied.steps[len(held) :]))
+def after_last(told: list[Told], seed: int) -> int:
+    """The first trip of a school of this seed after all those that taught something."""
+    trips = [trip for one in told if (trip := trip_of(one, seed)) is not None]
+    return max(trips, default=-1) + 1
 
 
-def offer_analogies(ledger: Ledger) -> tuple[Learned, ...]:
-    """Rules by analogy, put away as proposals: they fire once they are confirmed or seen right."""
-    made = proposals(ledger.book.rulebook)
-    for learned in made:
-        ledger.edit(learned.rulebook, learned.events[0].why)
-    return made
+def told_again(ledger: Ledger) -> None:
+    """Tells a pupil what an older book taught, where nobody has yet."""
+    book = ledger.book
+    if book.pupil is None and not all_told(book.steps):
+        for told in told_by(book):
+            ledger.tell(told)
 
 
-def tell(schooled: Schooled, offered: list[str], right: float, seconds: float, args: Namespace) -> None:
-    """What came of it; `offered`: the rules proposed by analogy, in sentences."""
-    report, rules = schooled.report, schooled.rulebook.rules
-    states = ", ".join(f"{rule.name} ({status(rule)})" for rule in rules)
+def settle(ledger: Ledger, pupil: SkillPupil) -> None:
+    """Puts away the rules that a pupil has made so far, and her notes."""
+    ledger.settle(pupil.rulebook(), notes_of(pupil, len(all_told(ledger.book.steps))))
+
+
+# --- what came of it -------------------------------------------------------------------------------
+def wrong_in(report: SchoolReport) -> str:
+    """How often the teacher stepped in on the last trips."""
+    last = report.corrected[-10:]
+    return f"{sum(last)} corrections in the last {len(last)}"
+
+
+def tell(
+    pupil: SkillPupil,
+    rulebook: Rulebook,
+    report: SchoolReport,
+    result: Result,
+    seconds: float,
+    args: Namespace,
+) -> None:
+    """What came of it."""
+    rules, given = rulebook.rules, report.given
+    each = Counter(rule.action.skill for rule in rules)
+    offered = [proposal.sentence for proposal in proposals(pupil)]
+    aside = [told.id for told in pupil.aside()]
     numbers = {
         "book": args.out,
-        "proposed": offered,
         "rules": [rule.name for rule in rules],
-        "right_on_held_out": right,
+        "rules_of_skill": dict(each),
+        "proposed": offered,
+        "trips": report.trips,
+        "moments": report.moments,
+        "shown": given["shown"],
+        "confirmed": given["confirmed"],
+        "corrected": given["corrected"],
+        "interventions": report.corrected,
+        "lessons": rulebook.lessons,
+        "set_aside": aside,
+        "right_on_held_out": result.right,
+        "sure_on_held_out": result.sure,
+        "wrong_while_sure": result.wrong_while_sure,
         "seconds": seconds,
-        **asdict(report),
     }
     write_json(args.json, json.dumps(numbers, indent=2, ensure_ascii=False))
+    states = ", ".join(f"{rule.name} ({status(rule)})" for rule in rules)
+    came = f"{given['shown']} shown, {given['confirmed']} confirmed, {given['corrected']} corrected"
     rows = [
         ("rules", states),
-        ("demonstrations", ", ".join(f"{name} {n}" for name, n in report.demonstrations.items())),
-        ("trips watched", f"{report.trips}, interventions {sum(report.interventions)}"),
-        ("lessons", str(report.lessons)),
-        ("firm trees", f"{report.firm:.0%}"),
-        ("right on new situations", f"{right:.1%} of {EXAM}"),
+        ("rules of a skill", ", ".join(f"{skill} {n}" for skill, n in each.items())),
+        ("trips", f"{report.trips}, with {report.moments} moments of decision"),
+        ("lessons", f"{rulebook.lessons} ({came} now)"),
+        *([("set aside", f"{len(aside)}: {', '.join(aside[:3])}")] if aside else []),
+        ("right on new situations", f"{result.right:.1%} of {EXAM}"),
+        ("sure there", f"{result.sure:.0%}, and wrong in {result.wrong_while_sure:.1%} of all"),
         *(("proposed", sentence) for sentence in offered),
         ("took", f"{seconds:.0f} s"),
         ("next", f"gaitwright explain {args.out}"),

@@ -22,7 +22,7 @@ class Cases(NamedTuple):
     action: Int[np.ndarray, " cases"]
     """What was right."""
     weight: Float[np.ndarray, " cases"]
-    """How much a case still counts, up to 1."""
+    """How much a case counts: 1, more where the teacher stepped in, less where she was contradicted since."""
     reason: Int[np.ndarray, " cases"]
     """The fact that decided the teacher, by its place; `NOBODY` where she gave none."""
     reads: Bool[np.ndarray, "columns facts"]
@@ -53,7 +53,25 @@ def no_cases(reads: Bool[np.ndarray, "columns facts"], price: Float[np.ndarray, 
     )
 
 
-def with_case(cases: Cases, row: Float[np.ndarray, " columns"], action: int, reason: int) -> Cases:
+def table_of(
+    rows: Float[np.ndarray, "cases columns"],
+    action: Int[np.ndarray, " cases"],
+    reason: Int[np.ndarray, " cases"],
+    like: Cases,
+) -> Cases:
+    """The table of many cases at once, over the columns of another: what `with_case` makes one by one."""
+    x = np.ascontiguousarray(rows.T)
+    named = np.zeros((int(action.max(initial=-1)) + 1, len(like.price)), np.bool_)
+    for a, r in zip(action.tolist(), reason.tolist(), strict=True):
+        if r != NOBODY:
+            named[a] |= like.reads[:, r]
+    order = np.argsort(x, axis=1, kind="stable")
+    return Cases(x, order, action, np.ones(len(action)), reason, like.reads, named, like.price)
+
+
+def with_case(
+    cases: Cases, row: Float[np.ndarray, " columns"], action: int, reason: int, weight: float = 1.0
+) -> Cases:
     """The table with one more case. Raises `WrongUse` for an action that is neither known nor the next."""
     n, named = cases.n, cases.named
     if len(row) != len(cases.price) or not 0 <= action <= len(named) or reason >= cases.reads.shape[1]:
@@ -66,7 +84,8 @@ def with_case(cases: Cases, row: Float[np.ndarray, " columns"], action: int, rea
     if reason != NOBODY:
         named = named.copy()
         named[action] |= cases.reads[:, reason]
-    places = [np.searchsorted(x, v, sorter=o) for x, o, v in zip(cases.x, cases.order, row, strict=True)]
+    columns = zip(cases.x, cases.order, row, strict=True)
+    places = [np.searchsorted(x, v, "right", sorter=o) for x, o, v in columns]
     order = np.empty((len(row), n + 1), np.int64)
     for k, (old, place) in enumerate(zip(cases.order, places, strict=True)):
         order[k, :place], order[k, place], order[k, place + 1 :] = old[:place], n, old[place:]
@@ -74,7 +93,7 @@ def with_case(cases: Cases, row: Float[np.ndarray, " columns"], action: int, rea
         x=np.hstack([cases.x, row[:, None]]),
         order=order,
         action=np.append(cases.action, action),
-        weight=np.append(cases.weight, 1.0),
+        weight=np.append(cases.weight, weight),
         reason=np.append(cases.reason, reason),
         named=named,
     )

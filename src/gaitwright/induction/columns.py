@@ -28,7 +28,7 @@ class Quantity:
     """A measured number.
 
     `kind` says which others it may be compared with (none where it is empty); `signed` that its size alone
-    may matter; `known` are bounds that have a name.
+    may matter; `known` are bounds that have a name; `said` is how a sentence speaks of it (by its name).
     """
 
     name: str
@@ -36,6 +36,7 @@ class Quantity:
     kind: str = ""
     signed: bool = False
     known: tuple[float, ...] = ()
+    said: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +64,8 @@ class Column:
     unit: str = ""
     values: tuple[str, ...] = ()
     """The names for which the column is 1, of a fact that is a name."""
+    said: str = ""
+    """How a sentence speaks of it."""
 
     def read(self, facts: Mapping[str, Fact]) -> float:
         """The column's number; NaN where a fact was not measured."""
@@ -127,17 +130,23 @@ class Vocabulary:
 def columns_of(facts: Sequence[Quantity | Names]) -> tuple[Column, ...]:
     """The columns of facts: plain ones first, then sizes, names, and comparisons of two."""
     numbers = [fact for fact in facts if isinstance(fact, Quantity)]
-    plain = [Column(q.name, "is", (q.name,), 0.0, q.known, q.unit) for q in numbers]
+    plain = [Column(q.name, "is", (q.name,), 0.0, q.known, q.unit, said=spoken_of(q)) for q in numbers]
     sizes = [size_of(q) for q in numbers if q.signed]
     named = [column for fact in facts if isinstance(fact, Names) for column in named_columns(fact)]
     pairs = [column for a, b in combinations(numbers, 2) for column in compared(a, b)]
     return (*plain, *sizes, *named, *pairs)
 
 
+def spoken_of(q: Quantity) -> str:
+    """How a sentence speaks of a number."""
+    return q.said or q.name
+
+
 def size_of(q: Quantity) -> Column:
     """How large a signed number is, whichever its sign."""
     known = tuple(sorted({abs(bound) for bound in q.known} - {0.0}))
-    return Column(f"size of {q.name}", "size", (q.name,), SIZE_BITS, known, q.unit)
+    said = f"the size of {spoken_of(q)}"
+    return Column(f"size of {q.name}", "size", (q.name,), SIZE_BITS, known, q.unit, said=said)
 
 
 def named_columns(fact: Names) -> list[Column]:
@@ -151,11 +160,15 @@ def named_columns(fact: Names) -> list[Column]:
 def compared(a: Quantity, b: Quantity) -> list[Column]:
     """The comparisons of two numbers that make sense."""
     if a.kind and a.kind == b.kind and a.unit == b.unit:
-        unit = a.unit
-        larger = Column(f"larger of {a.name} and {b.name}", "larger", (a.name, b.name), PAIR_BITS, (), unit)
-        apart = Column(f"{a.name} less {b.name}", "difference", (a.name, b.name), PAIR_BITS, (), unit)
-        return [larger, apart]
+        pair, unit, said = (a.name, b.name), a.unit, (spoken_of(a), spoken_of(b))
+        names = f"larger of {a.name} and {b.name}", f"{a.name} less {b.name}"
+        return [
+            Column(names[0], "larger", pair, PAIR_BITS, (), unit, said=f"the larger of {' and '.join(said)}"),
+            Column(names[1], "difference", pair, PAIR_BITS, (), unit, said=" less ".join(said)),
+        ]
     for way, speed in ((a, b), (b, a)):
         if (way.kind, speed.kind) == (WAY, SPEED):
-            return [Column(f"{way.name} over {speed.name}", "time", (way.name, speed.name), PAIR_BITS)]
+            said = f"{spoken_of(way)} over {spoken_of(speed)}"
+            pair = (way.name, speed.name)
+            return [Column(f"{way.name} over {speed.name}", "time", pair, PAIR_BITS, said=said)]
     return []

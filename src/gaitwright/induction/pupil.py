@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from gaitwright.induction.cases import NOBODY, Cases, no_cases, with_case
+from gaitwright.induction.cases import NOBODY, Cases, no_cases, table_of, with_case
 from gaitwright.induction.columns import Vocabulary
 from gaitwright.induction.decision_list import Lines, actions_of, fired
 from gaitwright.induction.drift import WINDOW, Drift
@@ -34,6 +34,9 @@ LOSS, REGAIN, LEAST, ALIKE, FEWEST = 0.5, 1.1, 0.05, 0.15, 3
 """What a decision that proves wrong leaves of the weight of the cases most like it, what each right one gives
 back, the least that is left; and the share of a rule's cases that are most alike, and how few may be."""
 
+STEPPED_IN = 3.0
+"""What a correction counts: where the teacher steps in she means it, and is followed at once."""
+
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
@@ -46,12 +49,14 @@ class Verdict:
 
 @dataclass(frozen=True, slots=True)
 class Lesson:
-    """One case taught: a row of columns, what is right, the place of the fact that decided, the scene's."""
+    """One case taught: a row of columns, what is right, the place of the fact that decided, the scene's, and
+    how much it counts."""
 
     row: Float[np.ndarray, " columns"]
     action: int
     reason: int = NOBODY
     scene: int = 0
+    weight: float = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,7 +149,7 @@ class Pupil:
         some search for a shorter list."""
         before, verdict = self.lines, self.decide(lesson.row)
         self._widest = None
-        self.cases = with_case(self.cases, lesson.row, lesson.action, lesson.reason)
+        self.cases = with_case(self.cases, lesson.row, lesson.action, lesson.reason, lesson.weight)
         self.scene = np.append(self.scene, lesson.scene)
         is_right = verdict.action == lesson.action or (self.cases.n == 1 and not lesson.action)
         self.standing.take_in(self.cases, lesson.scene, verdict.rule, is_right)
@@ -162,6 +167,25 @@ class Pupil:
             self.standing = standing_of(self.lines, self.cases, self.scene, self.since)
         return Heard(before, self.lines, verdict, how, was_revised, tuple(self.standing.aside.tolist()))
 
+    def forget(self, case: int) -> None:
+        """Takes a lesson out, as if it had never been heard, and searches on without it."""
+        self._widest, before = None, self.lines
+        rest = np.delete(np.arange(self.cases.n), case)
+        old = self.cases
+        table = table_of(old.x.T[rest], old.action[rest], old.reason[rest], old)
+        named = np.zeros_like(old.named)
+        named[: len(table.named)] = table.named
+        self.cases = table._replace(named=named, weight=old.weight[rest])
+        self.scene = self.scene[rest]
+        self.since -= self.since > case
+        del self.surprises[case]
+        if not len(rest):
+            self.lines, self.rivals, self.draft = Lines(), [], None
+        else:
+            self.revise(EACH_MISTAKE)
+            self.lines = settled(self.lines, self.cases, self.vocabulary.known, before)
+        self.standing = standing_of(self.lines, self.cases, self.scene, self.since)
+
     def trust(self, verdict: Verdict, is_right: bool) -> None:
         """Weighs anew what spoke for a decision: a right one regains a little; of one that proves wrong,
         where the rule stood firm, the cases most like the new one lose.
@@ -177,7 +201,8 @@ class Pupil:
             matter = self.columns_that_matter(verdict.rule)
             mine = most_alike(self.cases, self.cases.n - 1, mine, matter, most)
         weight = self.cases.weight.copy()
-        weight[mine] = np.clip(weight[mine] * (REGAIN if is_right else LOSS), LEAST, 1.0)
+        most = np.maximum(weight[mine], 1.0)
+        weight[mine] = np.clip(weight[mine] * (REGAIN if is_right else LOSS), LEAST, most)
         self.cases = self.cases._replace(weight=weight)
 
     def doubt_the_past(self) -> None:

@@ -56,19 +56,28 @@ def run_of(tree: FeatureTree, low: float, high: float) -> int:
 
 def spoken(tree: FeatureTree, mark: str) -> str:
     """A mark as a person says it: "the road is flat", "the way left is under 0.4 body lengths"."""
-    about = tree.about or f"{tree.name} is"
     if is_word(tree, mark):
-        return f"{about} {mark}"
-    # "it is stumbling", but "its sway is at least 0.2"; "the speed is a walking pace", but "… is under 1"
-    about = f"its {tree.source or tree.name} is" if about == "it is" else about.removesuffix(" a")
-    return f"{about} {value_text(tree, mark)}"
+        return f"{tree.about or f'{tree.name} is'} {mark}"
+    return f"{subject(tree)} {value_text(tree, mark)}"
+
+
+def subject(tree: FeatureTree) -> str:
+    """How a sentence on a number begins: "it is stumbling", but "its sway is at least 0.2"; "the speed is a
+    walking pace", but "the speed is under 1"."""
+    about = tree.about or f"{tree.name} is"
+    return f"its {tree.source or tree.name} is" if about == "it is" else about.removesuffix(" a")
 
 
 def value_text(tree: FeatureTree, mark: str) -> str:
     """The values that a mark stands for: its name where it has one, else from which number to which."""
     if is_word(tree, mark):
         return mark
-    (low, high), unit = range_of(tree, mark), f" {tree.unit}".rstrip()
+    return between(*range_of(tree, mark), tree.unit)
+
+
+def between(low: float, high: float, unit: str) -> str:
+    """From which number to which, as a person says it."""
+    unit = f" {unit}".rstrip()
     if low == float("-inf"):
         return f"under {high:.4g}{unit}"
     if high == float("inf"):

@@ -136,6 +136,8 @@ def move_text(event: Event) -> str:
     """One event as a person tells it, without the lesson's name."""
     if event.mark not in ("upper", "lower"):
         return event.why
+    if event.why.startswith(f"{event.rule} now "):
+        return event.why
     before = event.before or "nowhere"
     return f"the {event.mark} mark in {event.tree} went from {before} to {event.after}: {event.why}"
 

@@ -16,9 +16,9 @@ from gaitwright.induction.decision_list import Bound, Lines
 from gaitwright.induction.marks import gap_of
 from gaitwright.induction.standing import Standing
 from gaitwright.knowledge.cutting import cut_at, run_of, tree_at
-from gaitwright.knowledge.forest import Forest
-from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.rules import Choice, Instance, Kind, Marks, Rule, Rulebook
+from gaitwright.knowledge.forest import Forest, Situation
+from gaitwright.knowledge.memory import Action, Fact
+from gaitwright.knowledge.rules import QUIET, Choice, Instance, Kind, Marks, Rule, Rulebook
 from gaitwright.knowledge.trees import ROOT, FeatureTree
 
 MOST_WITNESSES = 24
@@ -56,19 +56,20 @@ def expressed(
     numbers = number_columns(vocabulary, wording)
     sets = leaf_sets(forest, cases, numbers, taught.instances)
     rules: list[Rule] = []
-    for r in range(len(lines.rules) + 1):
+    for r, name in enumerate(rule_names(lines, standing, taught.names)):
         mine = np.flatnonzero(standing.right & (standing.fire == r)).tolist()
-        if r == len(lines.rules) and not mine:
+        if not name:
             continue
         action = lines.rules[r].action if r < len(lines.rules) else lines.otherwise
         upper = upper_sets(lines, r, forest, vocabulary, wording)
         rights, wrongs = witnesses(lines, r, cases, standing)
         rule = Rule(
-            name_for([taught.names[k] for k in mine], rules),
+            name,
             taught.actions[action],
             marks_of(forest, upper, sets[mine]),
             tuple(shown(forest, vocabulary, numbers, taught.instances[k], "positive") for k in rights),
             tuple(shown(forest, vocabulary, numbers, taught.instances[k], "commission") for k in wrongs),
+            quiet=QUIET if standing.firm[r] else 0,
         )
         rules.append(replace(rule, choices=tuple(choice_of(forest, rule, wrong) for wrong in rule.negatives)))
     return Rulebook(forest, tuple(rules), lessons=cases.n)
@@ -92,7 +93,7 @@ def forest_for(lists: Sequence[Lines], vocabulary: Vocabulary, wording: Wording)
             tree = replace(cut_at(tree, sorted(cuts)), source=source)  # noqa: PLW2901
         trees.append(tree)
     new = [
-        tree_at(name, column.unit, sorted(cuts), f"{column.name} is", column.name)
+        tree_at(name, column.unit, sorted(cuts), f"{column.said} is", column.name)
         for name, (column, cuts) in needed.items()
     ]
     return Forest((*trees, *new))
@@ -106,17 +107,31 @@ def number_columns(vocabulary: Vocabulary, wording: Wording) -> dict[str, int]:
 def shown(
     forest: Forest, vocabulary: Vocabulary, numbers: Mapping[str, int], instance: Instance, kind: Kind
 ) -> Instance:
-    """The instance in a forest with more bounds: leaves that are names as they were, all others read anew.
+    """The instance in a forest with more bounds."""
+    situation = read_in(forest, vocabulary, numbers, instance.situation, instance.raw)
+    return replace(instance, kind=kind, situation=situation)
 
-    `numbers` are the `number_columns`."""
+
+def read_in(
+    forest: Forest,
+    vocabulary: Vocabulary,
+    numbers: Mapping[str, int],
+    now: Situation,
+    facts: Mapping[str, Fact],
+) -> Situation:
+    """The situation in a forest with more bounds: leaves that are names as they were, all others read anew.
+
+    `numbers` are the `number_columns`.
+    """
     known = {}
     for tree in forest.trees:
         if tree.bounds and tree.name in numbers:
-            number = vocabulary.columns[numbers[tree.name]].read(instance.raw)
-            known[tree.name] = None if np.isnan(number) else tree.leaf_of(number)
-        elif tree.name in instance.situation.trees:
-            known[tree.name] = instance.situation[tree.name]
-    return replace(instance, kind=kind, situation=forest.read(known, {}))
+            number = vocabulary.columns[numbers[tree.name]].read(facts)
+            if not np.isnan(number):
+                known[tree.name] = tree.leaf_of(number)
+        elif tree.name in now.trees and (now[tree.name] is None or tree.is_leaf(str(now[tree.name]))):
+            known[tree.name] = now[tree.name]
+    return forest.read(known, facts)
 
 
 def leaf_sets(
@@ -206,9 +221,21 @@ def choice_of(forest: Forest, rule: Rule, wrong: Instance) -> Choice:
     return Choice(out[0], tuple(out[1:])) if out else Choice("")
 
 
-def name_for(said: Sequence[str], rules: Sequence[Rule]) -> str:
+def rule_names(lines: Lines, standing: Standing, names: Sequence[str]) -> list[str]:
+    """What each rule of a list is called, the last line included; that has no name where it was never right.
+
+    `names` are what the teacher called the rule, case by case.
+    """
+    found: list[str] = []
+    for r in range(len(lines.rules) + 1):
+        mine = np.flatnonzero(standing.right & (standing.fire == r)).tolist()
+        is_one = mine or r < len(lines.rules)
+        found.append(name_for([names[k] for k in mine], found) if is_one else "")
+    return found
+
+
+def name_for(said: Sequence[str], taken: Sequence[str]) -> str:
     """What the teacher called a rule most often; with a number where another is called so already."""
-    taken = {rule.name for rule in rules}
     name = max(sorted(set(said)), key=said.count) if said else "rule"
     number, free = 2, name
     while free in taken:

@@ -1,4 +1,4 @@
-"""Exams: is a rulebook right where nobody taught it, and what does one correction do? (no physics)"""
+"""Exams: is a pupil right where nobody taught her, and what does one correction do? (no physics)"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from gaitwright.knowledge.forest import replace_value
-from gaitwright.knowledge.rules import Rulebook
-from gaitwright.learning.apprentice import corrected, step_of
-from gaitwright.learning.critic import DecisionPoint
+from gaitwright.knowledge.memory import Action
+from gaitwright.learning.decision_point import DecisionPoint
+from gaitwright.learning.skill_pupil import SkillPupil, told_at
 from gaitwright.learning.teacher import Teacher
 from gaitwright.learning.trips import EXAM, trips
 from gaitwright.model.robot import Robot
@@ -32,22 +32,30 @@ def held_out(robot: Robot, teacher: Teacher, seed: int, n: int = 200) -> tuple[D
     return tuple(found[:n])
 
 
-def right_share(rulebook: Rulebook, teacher: Teacher, moments: Sequence[DecisionPoint]) -> float:
-    """Share of the moments at which the rules do what the teacher would."""
-    return float(np.mean([is_right(rulebook, teacher, moment) for moment in moments]))
+@dataclass(frozen=True, slots=True)
+class Result:
+    """What came of an exam, as shares of its moments."""
+
+    right: float
+    sure: float
+    wrong_while_sure: float
 
 
-def is_right(rulebook: Rulebook, teacher: Teacher, moment: DecisionPoint) -> bool:
-    """Whether the rules do what the teacher would."""
-    return step_of(rulebook, moment).action == teacher.ideal(moment.raw).action
+def examined(pupil: SkillPupil, teacher: Teacher, moments: Sequence[DecisionPoint]) -> Result:
+    """How a pupil does at moments that nobody taught her."""
+    right = rights(pupil, teacher, moments)
+    sure = np.array([choice.sure for choice in pupil.choose_all(moments)])
+    return Result(float(right.mean()), float(sure.mean()), float((sure & ~right).mean()))
 
 
-def firm_share(rulebook: Rulebook) -> float:
-    """Share of the trees, over all rules that may fire, in which upper and lower mark meet."""
-    met = [marks.upper == marks.lower for rule in rulebook.rules if rule.may_fire for marks in rule.marks]
-    return float(np.mean(met)) if met else 0.0
+def rights(pupil: SkillPupil, teacher: Teacher, moments: Sequence[DecisionPoint]) -> np.ndarray:
+    """Whether the pupil would do what the teacher would, moment by moment."""
+    done = pupil.choose_all(moments)
+    wanted = [teacher.ideal(moment.raw).action for moment in moments]
+    return np.array([choice.action == action for choice, action in zip(done, wanted, strict=True)])
 
 
+# --- one correction --------------------------------------------------------------------------------
 @dataclass(frozen=True, slots=True)
 class Trial:
     """What one correction did."""
@@ -63,32 +71,35 @@ class Trial:
     """Of these, wrong afterwards."""
 
 
-def faults(rulebook: Rulebook, teacher: Teacher, moments: Sequence[DecisionPoint]) -> list[DecisionPoint]:
+def faults(pupil: SkillPupil, teacher: Teacher, moments: Sequence[DecisionPoint]) -> list[DecisionPoint]:
     """The moments at which a teacher would correct the rules."""
-    return [m for m in moments if teacher.judge(step_of(rulebook, m).action, m.raw) is not None]
+    right = rights(pupil, teacher, moments)
+    return [moment for moment, is_right in zip(moments, right, strict=True) if not is_right]
 
 
 def trial(
-    rulebook: Rulebook,
+    pupil: SkillPupil,
     teacher: Teacher,
     fault: DecisionPoint,
     pool: Sequence[DecisionPoint],
     rng: np.random.Generator,
 ) -> Trial:
-    """One fault corrected once, then looked at again in other circumstances, and at all earlier moments."""
-    wrong = step_of(rulebook, fault).action
-    correction = teacher.judge(wrong, fault.raw)
-    assert correction is not None, "a fault is what the teacher corrects"
-    unseen = [v for v in variants(teacher, fault, pool, rng) if step_of(rulebook, v).action == wrong]
-    earlier = [moment for moment in pool if is_right(rulebook, teacher, moment)]
-    after = corrected(rulebook, fault, correction).rulebook
-    return Trial(
-        fault,
-        len(unseen),
-        sum(is_right(after, teacher, variant) for variant in unseen),
-        len(earlier),
-        sum(not is_right(after, teacher, moment) for moment in earlier),
-    )
+    """One fault corrected once, then looked at again in other circumstances, and at all earlier moments; the
+    pupil herself is left as she was."""
+    drawn = variants(teacher, fault, pool, rng)
+    unseen = alike(pupil, drawn, pupil.choose(fault).action)
+    before = rights(pupil, teacher, pool)
+    after = pupil.copied()
+    after.hear(told_at(fault, teacher.ideal(fault.raw), "the fault"))
+    still = rights(after, teacher, pool)
+    mended = int(rights(after, teacher, unseen).sum()) if unseen else 0
+    return Trial(fault, len(unseen), mended, int(before.sum()), int((before & ~still).sum()))
+
+
+def alike(pupil: SkillPupil, moments: Sequence[DecisionPoint], wrong: Action | None) -> list[DecisionPoint]:
+    """The moments at which a pupil makes a certain mistake."""
+    done = pupil.choose_all(moments)
+    return [moment for moment, choice in zip(moments, done, strict=True) if choice.action == wrong]
 
 
 def variants(
@@ -99,7 +110,7 @@ def variants(
     n: int = 20,
 ) -> list[DecisionPoint]:
     """The same fault in other circumstances: what the teacher does not go by is taken from other moments, the
-    rest varies a little; only such at which she would clearly do the same."""
+    rest varies a little; only such at which she would do the same."""
     right, found = teacher.ideal(fault.raw), []
     for k in rng.permutation(len(pool))[: 3 * n].tolist():
         raw = {
@@ -107,8 +118,7 @@ def variants(
         }
         raw |= {name: fault.raw[name] for name in ("arrived", "turning")}
         raw |= {name: pool[k].raw[name] for name in ASIDE}
-        shown = teacher.ideal(raw)
-        if not shown.clear or shown.action != right.action:
+        if teacher.ideal(raw).action != right.action:
             continue
         situation = replace_value(FOREST, named(raw), "doing", str(fault.situation["doing"]))
         found.append(DecisionPoint(f"{fault.id}, variant {k}", situation, raw, fault.memory))

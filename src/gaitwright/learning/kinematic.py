@@ -13,14 +13,15 @@ import numpy as np
 
 from gaitwright.ground.scene import Scene
 from gaitwright.knowledge.memory import remembered
-from gaitwright.learning.critic import DecisionPoint
+from gaitwright.learning.decision_point import DecisionPoint
 from gaitwright.model.kinematics import angles
 from gaitwright.model.robot import Robot
 from gaitwright.navigation.navigator import Navigator, Travelled
 from gaitwright.numerics.geometry import GRAVITY, quaternion_of, upright_rotation
 from gaitwright.perception.known_ground import KnownGround
 from gaitwright.signals import Mission, Route, Sensed, SkillCall
-from gaitwright.skills.situation import measured, named
+from gaitwright.skills.measured import measured
+from gaitwright.skills.situation import named
 
 Driver = Callable[[Route, Sensed, SkillCall | None], SkillCall]
 """Who chooses the skills."""

@@ -4,21 +4,28 @@ What she is told goes to `induction.pupil` as numbers; here are the words: which
 the teacher calls each rule, and the situation as people speak of it.
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from copy import deepcopy
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from gaitwright.errors import WrongUse
 from gaitwright.induction.cases import NOBODY
-from gaitwright.induction.columns import Fact
-from gaitwright.induction.pupil import Heard, Lesson, Pupil
-from gaitwright.knowledge.expressed import Lessons, expressed
+from gaitwright.induction.pupil import STEPPED_IN, Heard, Lesson, Pupil
+from gaitwright.knowledge.differences import Stage, differences
+from gaitwright.knowledge.expressed import Lessons, expressed, rule_names
 from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.rules import Instance, Rulebook
-from gaitwright.learning.critic import DecisionPoint
+from gaitwright.knowledge.rules import Event, Instance, Rulebook
+from gaitwright.knowledge.told import Given, Told
+from gaitwright.learning.decision_point import DecisionPoint
 from gaitwright.learning.teacher import Shown
+from gaitwright.skills.situation import situation_of
 from gaitwright.skills.vocabulary import VOCABULARY
 from gaitwright.skills.wording import WORDING
+
+WEIGHT: dict[Given, float] = {"corrected": STEPPED_IN, "by analogy": 0.5}
+"""How much a lesson counts by how it came (1): what was only concluded gives way to what is seen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +37,14 @@ class Choice:
     sure: bool = False
 
 
+@dataclass(frozen=True, slots=True)
+class Taken:
+    """How one lesson was taken in: what it did to the list, and what moved, in sentences."""
+
+    heard: Heard
+    events: tuple[Event, ...]
+
+
 @dataclass
 class SkillPupil:
     """A pupil of skills. The same words in the same order and the same seed make the same rules."""
@@ -38,46 +53,101 @@ class SkillPupil:
     pupil: Pupil = field(init=False)
     actions: list[Action] = field(default_factory=list)
     """What a teacher has shown, each action once, in the order in which they came."""
-    instances: list[Instance] = field(default_factory=list)
-    names: list[str] = field(default_factory=list)
-    """What she called the rule, moment by moment."""
+    told: list[Told] = field(default_factory=list)
+    """What counts, in order."""
     scenes: dict[str, int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.pupil = Pupil(VOCABULARY, self.seed)
 
+    def copied(self) -> "SkillPupil":
+        """Another one who knows the same: to try out what a lesson would do."""
+        other = SkillPupil(self.seed, [*self.actions], [*self.told], {**self.scenes})
+        other.pupil = deepcopy(self.pupil, {id(VOCABULARY): VOCABULARY})
+        return other
+
+    # --- deciding ----------------------------------------------------------------------------------
     def choose(self, moment: DecisionPoint) -> Choice:
         """What the rules do at a moment."""
         return self.choose_all([moment])[0]
 
     def choose_all(self, moments: Sequence[DecisionPoint]) -> list[Choice]:
         """What the rules do at many moments."""
-        if not self.instances:
+        if not self.told or not moments:
             return [Choice(None)] * len(moments)
         rows = np.array([VOCABULARY.row(facts_of(moment)) for moment in moments])
         actions, _, sure = self.pupil.decide_all(rows.T)
         return [Choice(self.actions[a], s) for a, s in zip(actions.tolist(), sure.tolist(), strict=True)]
 
-    def hear(self, moment: DecisionPoint, shown: Shown, scene: str) -> Heard:
+    # --- learning ----------------------------------------------------------------------------------
+    def hear(self, told: Told) -> Taken:
         """One word of the teacher's: what is right at a moment of a scene, and the number that decided her.
 
         A reason that is no fact of the vocabulary counts as none.
         """
-        if shown.action not in self.actions:
-            self.actions.append(shown.action)
-        facts = facts_of(moment)
-        reason = VOCABULARY.place_of(shown.about) if shown.about in VOCABULARY.names else NOBODY
-        place = self.scenes.setdefault(scene, len(self.scenes))
-        self.instances.append(Instance(moment.id, "positive", moment.situation, facts, shown.because))
-        self.names.append(shown.rule)
-        return self.pupil.hear(Lesson(VOCABULARY.row(facts), self.actions.index(shown.action), reason, place))
+        self.note(told)
+        before = self.stage()
+        heard = self.pupil.hear(self.lesson_of(told))
+        self.told.append(told)
+        if heard.before == heard.after:
+            return Taken(heard, ())
+        fire = np.append(before.fire, heard.verdict.rule)
+        events = differences(replace(before, fire=fire), self.stage(), told.id, VOCABULARY, WORDING)
+        return Taken(heard, events)
+
+    def forget(self, name: str) -> tuple[Event, ...]:
+        """Takes back what was told under a name; what that moved. Raises `WrongUse` where nothing was."""
+        names = [told.id for told in self.told]
+        if name not in names:
+            last = ", ".join(names[-3:]) or "none"
+            raise WrongUse(f"no lesson {name!r} that counts; the last ones are: {last}")
+        k, before = names.index(name), self.stage()
+        self.pupil.forget(k)
+        del self.told[k]
+        before = replace(before, fire=np.delete(before.fire, k))
+        return differences(before, self.stage(), name, VOCABULARY, WORDING)
+
+    def note(self, told: Told) -> None:
+        """Gives a new action and a new scene their places."""
+        if told.action not in self.actions:
+            self.actions.append(told.action)
+        self.scenes.setdefault(told.scene, len(self.scenes))
+
+    def lesson_of(self, told: Told) -> Lesson:
+        """What was told, as numbers; its action and scene have their places."""
+        reason = VOCABULARY.place_of(told.about) if told.about in VOCABULARY.names else NOBODY
+        row, action = VOCABULARY.row(told.facts), self.actions.index(told.action)
+        return Lesson(row, action, reason, self.scenes[told.scene], WEIGHT.get(told.given, 1.0))
+
+    def aside(self) -> list[Told]:
+        """What counts and is not followed: it contradicts too much of the rest."""
+        return [self.told[k] for k in self.pupil.standing.aside.tolist()]
+
+    # --- what was learned --------------------------------------------------------------------------
+    def stage(self) -> Stage:
+        """The list as it is, with what its rules are called."""
+        pupil = self.pupil
+        names = rule_names(pupil.lines, pupil.standing, [told.rule for told in self.told])
+        return Stage(pupil.lines, pupil.standing.fire, names)
 
     def rulebook(self) -> Rulebook:
         """What was learned, as rules over feature trees."""
-        pupil, taught = self.pupil, Lessons(self.instances, self.actions, self.names)
+        pupil, instances = self.pupil, [instance_of(told) for told in self.told]
+        taught = Lessons(instances, self.actions, [told.rule for told in self.told])
         return expressed(pupil.lines, pupil.cases, pupil.standing, VOCABULARY, WORDING, taught)
 
 
-def facts_of(moment: DecisionPoint) -> Mapping[str, Fact]:
+def told_at(moment: DecisionPoint, shown: Shown, scene: str, given: Given = "corrected") -> Told:
+    """What a teacher shows at a moment, as it is told to a pupil."""
+    reason = (shown.because, shown.about)
+    return Told(moment.id, facts_of(moment), shown.rule, shown.action, *reason, scene, given)
+
+
+def instance_of(told: Told) -> Instance:
+    """What was told, in the situation as people speak of it."""
+    return Instance(told.id, "positive", situation_of(told.facts), told.facts, told.because)
+
+
+def facts_of(moment: DecisionPoint) -> dict[str, float | str]:
     """The numbers of a moment and what the robot has been doing."""
     return {**moment.raw, "doing": str(moment.situation["doing"])}

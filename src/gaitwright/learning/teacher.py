@@ -17,22 +17,12 @@ class Shown:
     """What a teacher does, and why.
 
     `rule` is what she calls the rule: one skill may have several uses. `about` names the number that decided
-    it; a teacher who gives no reason leaves it empty. Where it is not `clear`, on the border between two
-    skills, nothing is to be learned from it.
+    it; a teacher who gives no reason leaves it empty.
     """
 
     rule: str
     action: Action
     because: str = ""
-    about: str = ""
-    clear: bool = True
-
-
-@dataclass(frozen=True, slots=True)
-class Correction:
-    """What would have been right, and the number that speaks against what was done."""
-
-    right: Shown
     about: str = ""
 
 
@@ -42,10 +32,6 @@ class Teacher(Protocol):
 
     def ideal(self, raw: Raw) -> Shown:
         """What the teacher would do."""
-        ...
-
-    def judge(self, done: Action | None, raw: Raw) -> Correction | None:
-        """What is wrong with what was done (`None`: nothing was decided); `None` where nothing is."""
         ...
 
 
@@ -147,61 +133,17 @@ POLICY: tuple[Clause, ...] = (
 """What a good driver of a dog-sized robot does: the first line that holds."""
 
 
-LOOKED_AT = (
-    "off the path",
-    "sway",
-    "slope",
-    "step up",
-    "step down",
-    "gap",
-    "roughness",
-    "obstacle",
-    "possible",
-)
-"""The numbers that the policy goes by, but for those that are yes or no."""
-BORDER = 0.15
-"""Where a number this share larger or smaller would change what she does, she says nothing."""
-
-
 @dataclass(frozen=True, slots=True)
 class ScriptedTeacher:
-    """Follows a policy, and gives the reason for each correction where `gives_reasons`."""
+    """Follows a policy, and says which number decided her where she `gives_reasons`."""
 
     policy: tuple[Clause, ...] = POLICY
     gives_reasons: bool = True
-    border: float = BORDER
 
     def ideal(self, raw: Raw) -> Shown:
         """The action of the first line of the policy that holds."""
-        clause = self.line(raw)
-        about = clause.about if self.gives_reasons else ""
-        return Shown(clause.rule, clause.action, clause.because, about, self.is_clear(raw, clause))
-
-    def is_clear(self, raw: Raw, clause: Clause) -> bool:
-        """Whether she would do the same if one of the numbers were a little different."""
-        return all(
-            self.line({**raw, name: number * share}) is clause
-            for name in LOOKED_AT
-            if (number := raw[name])
-            for share in (1.0 - self.border, 1.0 + self.border)
-        )
-
-    def judge(self, done: Action | None, raw: Raw) -> Correction | None:
-        """What would have been right, and the number that speaks against what was done.
-
-        What stands in the policy before the line that holds was wrong because its own line does not hold;
-        anything else because of what the right line looks at.
-        """
-        right, shown = self.line(raw), self.ideal(raw)
-        if right.action == done or not shown.clear:
-            return None
-        passed_over = [clause for clause in self.policy[: self.policy.index(right)] if clause.action == done]
-        reason = passed_over[0] if passed_over else right
-        return Correction(shown, reason.about if self.gives_reasons else "")
-
-    def line(self, raw: Raw) -> Clause:
-        """The first line of the policy that holds."""
-        return next(clause for clause in self.policy if clause.holds(raw))
+        clause = next(clause for clause in self.policy if clause.holds(raw))
+        return Shown(clause.rule, clause.action, clause.because, clause.about if self.gives_reasons else "")
 
 
 def teacher_for(robot: Robot) -> ScriptedTeacher:

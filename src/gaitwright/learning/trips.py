@@ -7,13 +7,13 @@ import numpy as np
 
 from gaitwright.knowledge.memory import remembered
 from gaitwright.learning.courses import course
-from gaitwright.learning.critic import DecisionPoint
+from gaitwright.learning.decision_point import DecisionPoint
 from gaitwright.learning.kinematic import Driver, moments_of
 from gaitwright.learning.teacher import Teacher
 from gaitwright.model.robot import Robot
 from gaitwright.signals import Route, Sensed, SkillCall
+from gaitwright.skills.measured import measured
 from gaitwright.skills.rule_chooser import DOING, carry_out
-from gaitwright.skills.situation import measured
 
 SCHOOL, EXAM = 1, 2
 """What a seed is put behind to number courses, so that no exam was a lesson."""

@@ -60,6 +60,7 @@ class Scanner:
             gap=gap,
             obstacle=obstacle,
             course=yaw,
+            friction=ground.friction,
         )
 
     def heights(

@@ -1,5 +1,6 @@
 """A tick of a recording → the values on the arrows that it was made of."""
 
+import math
 from dataclasses import fields
 from typing import Any
 
@@ -7,7 +8,7 @@ import numpy as np
 
 from gaitwright.record.channels import SCAN
 from gaitwright.record.recording import Recording
-from gaitwright.signals import Gait, Route, Scan, Sensed, SkillCall
+from gaitwright.signals import GRIP, Gait, Route, Scan, Sensed, SkillCall
 
 
 def sensed_at(r: Recording, tick: int) -> Sensed:
@@ -30,6 +31,8 @@ def scan_at(r: Recording, tick: int) -> Scan | None:
     values: dict[str, Any] = {
         field.name: number(r, name, tick) for field, name in zip(fields(Scan), SCAN, strict=True)
     }
+    if math.isnan(values["friction"]):  # older recordings do not tell it
+        values["friction"] = GRIP
     if np.isnan(list(values.values())).any():
         return None
     return Scan(**values | {"familiar": bool(values["familiar"])})

@@ -5,6 +5,7 @@ from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from gaitwright.errors import BadFile
 from gaitwright.knowledge.forest import Forest
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.skillbook import store, text
@@ -19,14 +20,16 @@ from gaitwright.skillbook.entries import (
     step_entry,
     steps_of,
 )
-from gaitwright.skillbook.history import Ancestor, Step, replayed
+from gaitwright.skillbook.history import Ancestor, Step, all_told, forgotten, replayed
+from gaitwright.skillbook.pupil_notes import PupilNotes, actions_in, is_sound
 
 
 @dataclass(frozen=True)
 class Skillbook:
     """What a robot was taught (`steps`), what came of it (`rulebook`), and the books it came from.
 
-    `robot` names the one it was taught on, `made_by` the version of Gaitwright that began it.
+    `robot` names the one it was taught on, `made_by` the version of Gaitwright that began it; `pupil` is how
+    far she has come who learns from it.
     """
 
     name: str
@@ -36,6 +39,7 @@ class Skillbook:
     made_by: str
     seed: int = 0
     ancestors: tuple[Ancestor, ...] = ()
+    pupil: PupilNotes | None = None
 
     @staticmethod
     def new(start: Forest | Rulebook, robot: str = "", name: str = "", seed: int = 0) -> "Skillbook":
@@ -83,7 +87,8 @@ def entry_of(book: Skillbook) -> File:
     """The book, checked against the limits of a file. Raises `WrongUse`."""
     rulebook = rulebook_entry(book.rulebook)
     steps = tuple(step_entry(step) for step in book.steps)
-    return File(about_of(book), rulebook, steps, tuple(ancestor_entry(a) for a in book.ancestors))
+    ancestors = tuple(ancestor_entry(a) for a in book.ancestors)
+    return File(about_of(book), rulebook, steps, ancestors, book.pupil)
 
 
 def about_of(book: Skillbook) -> About:
@@ -91,17 +96,30 @@ def about_of(book: Skillbook) -> About:
     rules = book.rulebook
     counts = (len(book.steps), len(rules.rules), len(rules.preferences), len(rules.forest.trees))
     own = (book.name, book.robot, book.made_by, book.seed, rules.lessons)
-    return checked(About(*own, *counts, len(book.ancestors)), About)
+    return checked(About(*own, *counts, len(book.ancestors), int(book.pupil is not None)), About)
 
 
 def book_of(entry: File, source: str) -> Skillbook:
     """The book of an entry. Raises `BadFile`."""
     rulebook = rulebook_of(entry.rulebook, source)
     steps = steps_of(entry.steps, rulebook.events, source)
-    about = entry.about
-    return Skillbook(
-        about.name, about.robot, rulebook, steps, about.made_by, about.seed, ancestors_of(entry.ancestors)
-    )
+    about, ancestors = entry.about, ancestors_of(entry.ancestors)
+    check_notes(entry.pupil, steps, source)
+    own = (about.made_by, about.seed, ancestors, entry.pupil)
+    return Skillbook(about.name, about.robot, rulebook, steps, *own)
+
+
+def check_notes(notes: PupilNotes | None, steps: tuple[Step, ...], source: str) -> None:
+    """Raises `BadFile` where a pupil's notes are not about what was told."""
+    told = all_told(steps)
+    names = {one.id for one in told}
+    if len(names) < len(told) or not forgotten(steps) <= names:
+        raise BadFile(f"{source}: two lessons have one name, or one is forgotten that it does not hold")
+    if notes is None:
+        return
+    actions = len({one.action for one in told})
+    if notes.heard > len(told) or not is_sound(notes) or (told and actions_in(notes) > actions):
+        raise BadFile(f"{source}: its pupil has learned from other lessons than it holds")
 
 
 def _begun(rulebook: Rulebook, note: str) -> Step:

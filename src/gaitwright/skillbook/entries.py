@@ -25,7 +25,9 @@ from gaitwright.knowledge.json_form import (
 from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.modifier import Lesson
 from gaitwright.knowledge.rules import Event, Rulebook
+from gaitwright.knowledge.told import Given, Told
 from gaitwright.skillbook.history import Ancestor, How, Step
+from gaitwright.skillbook.pupil_notes import PupilNotes
 
 T = TypeVar("T")
 Place = Annotated[int, Meta(ge=0, le=MAX_EVENTS)]
@@ -45,6 +47,7 @@ class About(Strict, frozen=True):
     wishes: Place = 0
     trees: Place = 0
     ancestors: Place = 0
+    pupil: Annotated[int, Meta(ge=0, le=1)] = 0
 
 
 class AncestorEntry(Strict, frozen=True):
@@ -64,12 +67,24 @@ class LessonEntry(Strict, frozen=True):
     action: ActionEntry | None = None
 
 
+class ToldEntry(Strict, frozen=True, omit_defaults=True):
+    id: Text
+    rule: Label
+    action: ActionEntry
+    facts: Facts
+    because: Text = ""
+    about: Label = ""
+    scene: Text = ""
+    given: Given = "corrected"
+
+
 class StepEntry(Strict, frozen=True, omit_defaults=True):
     how: How
     lesson: LessonEntry | None = None
     rulebook: BookEntry | None = None
     note: Text = ""
     events: Place = 0
+    told: ToldEntry | None = None
 
 
 class RuleHead(Strict, frozen=True):
@@ -99,6 +114,7 @@ class File(Strict, frozen=True):
     rulebook: BookEntry
     steps: tuple[StepEntry, ...]
     ancestors: tuple[AncestorEntry, ...] = ()
+    pupil: PupilNotes | None = None
 
 
 ENCODER = msgspec.json.Encoder(order="deterministic")
@@ -133,7 +149,14 @@ def step_entry(step: Step) -> StepEntry:
     """A step, checked against the limits of a file; of its events only how many."""
     lesson = None if step.lesson is None else _lesson_entry(step.lesson)
     rulebook = None if step.rulebook is None else rulebook_entry(step.rulebook)
-    return checked(StepEntry(step.how, lesson, rulebook, step.note, len(step.events)), StepEntry)
+    told = None if step.told is None else _told_entry(step.told)
+    return checked(StepEntry(step.how, lesson, rulebook, step.note, len(step.events), told), StepEntry)
+
+
+def _told_entry(told: Told) -> ToldEntry:
+    action = checked(told.action, ActionEntry)
+    own = (told.because, told.about, told.scene, told.given)
+    return ToldEntry(told.id, told.rule, action, dict(told.facts), *own)
 
 
 def _lesson_entry(lesson: Lesson) -> LessonEntry:
@@ -167,13 +190,32 @@ def steps_of(entries: tuple[StepEntry, ...], events: tuple[Event, ...], source: 
     return tuple(steps)
 
 
+HOLDS = {"begun": "a rulebook", "edited": "a rulebook", "told": "what was told", "forgotten": ""}
+"""What a step holds, where it is not a lesson of an older book."""
+
+
 def _step(entry: StepEntry, events: tuple[Event, ...], source: str) -> Step:
-    whole = entry.how in ("begun", "edited")
-    if whole != (entry.rulebook is not None) or whole != (entry.lesson is None):
-        wanted = "a rulebook and no lesson" if whole else "a lesson and no rulebook"
-        raise BadFile(f"{source}: a step {entry.how!r} has {wanted}")
+    held = {"a rulebook": entry.rulebook, "a lesson": entry.lesson, "what was told": entry.told}
+    wanted = HOLDS.get(entry.how, "a lesson")
+    if [name for name, value in held.items() if value is not None] != ([wanted] if wanted else []):
+        raise BadFile(f"{source}: a step {entry.how!r} has {wanted or 'a name'} and nothing else")
     rulebook = None if entry.rulebook is None else rulebook_of(entry.rulebook, source)
-    return Step(entry.how, _lesson(entry.lesson, source), rulebook, entry.note, events)
+    told = None if entry.told is None else _told(entry.told, source)
+    return Step(entry.how, _lesson(entry.lesson, source), rulebook, entry.note, events, told)
+
+
+def _told(entry: ToldEntry, source: str) -> Told:
+    """What was told. Raises `BadFile` for what makes no sense."""
+    try:
+        action = _action(entry.action)
+        own = (entry.because, entry.about, entry.scene, entry.given)
+        return Told(entry.id, entry.facts, entry.rule, action, *own)
+    except WrongUse as error:
+        raise BadFile(f"{source}: {error}") from None
+
+
+def _action(a: ActionEntry) -> Action:
+    return Action(a.skill, a.slowest, a.fastest, a.until, a.adds, a.deletes, a.details)
 
 
 def _lesson(entry: LessonEntry | None, source: str) -> Lesson | None:
@@ -183,9 +225,8 @@ def _lesson(entry: LessonEntry | None, source: str) -> Lesson | None:
     trees = tuple(tree for tree, _ in entry.situation)
     if len(set(trees)) < len(trees):
         raise BadFile(f"{source}: {entry.id} names a tree twice")
-    a = entry.action
     try:
-        action = a and Action(a.skill, a.slowest, a.fastest, a.until, a.adds, a.deletes, a.details)
+        action = entry.action and _action(entry.action)
     except WrongUse as error:
         raise BadFile(f"{source}: {error}") from None
     situation = Situation(trees, tuple(value for _, value in entry.situation))

@@ -9,17 +9,19 @@ from gaitwright.knowledge.correction import teach
 from gaitwright.knowledge.modifier import Inconsistency, Lesson, learn
 from gaitwright.knowledge.repair import mend
 from gaitwright.knowledge.rules import Event, Instance, Rulebook
+from gaitwright.knowledge.told import Told
 
-How = Literal["begun", "taught", "learned", "mended", "edited"]
+How = Literal["begun", "taught", "learned", "mended", "edited", "told", "forgotten"]
 
 
 @dataclass(frozen=True, slots=True)
 class Step:
     """One step: its lesson and how that was taken in, and the events that it moved.
 
-    `how`: "taught" by `teach`, "learned" by `learn`, "mended" by `mend` right after a step that ended in a
-    contradiction. "begun" and "edited" (a confirmation, an analogy, a new feature, a person's change) hold
-    the whole `rulebook` after them, without its events, and say in `note` what they are.
+    `how`: "told" to a pupil who finds her own bounds (`told`), or what she was told of that name "forgotten"
+    (`note`); in older books "taught" by `teach`, "learned" by `learn`, "mended" by `mend` right after a step
+    that ended in a contradiction. "begun" and "edited" (a confirmation, an analogy, a new feature, a person's
+    change) hold the whole `rulebook` after them, without its events, and say in `note` what they are.
     """
 
     how: How
@@ -27,6 +29,7 @@ class Step:
     rulebook: Rulebook | None = None
     note: str = ""
     events: tuple[Event, ...] = ()
+    told: Told | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +41,16 @@ class Ancestor:
     digest: str
 
 
+def all_told(steps: Iterable[Step]) -> list[Told]:
+    """Everything that was told, in order, whether it was forgotten since or not."""
+    return [step.told for step in steps if step.told is not None]
+
+
+def forgotten(steps: Iterable[Step]) -> set[str]:
+    """The names of what was told and does not count any more."""
+    return {step.note for step in steps if step.how == "forgotten"}
+
+
 def number_lesson(lesson: Lesson, lessons: int) -> Lesson:
     """A lesson as a file keeps it: numbered, and without measurements that are not finite."""
     name = lesson.id or f"lesson {lessons + 1}"
@@ -46,7 +59,10 @@ def number_lesson(lesson: Lesson, lessons: int) -> Lesson:
 
 
 def replayed(steps: Iterable[Step]) -> Rulebook:
-    """The rulebook that the steps make when they are taken again. Raises `WrongUse` where they cannot be."""
+    """The rulebook that the steps of an older book make when they are taken again.
+
+    Raises `WrongUse` where they cannot be.
+    """
     rulebook: Rulebook | None = None
     trouble: Inconsistency | None = None
     for step in steps:

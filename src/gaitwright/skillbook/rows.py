@@ -26,6 +26,7 @@ from gaitwright.skillbook.entries import (
     encoded,
     rulebook_entry,
 )
+from gaitwright.skillbook.pupil_notes import PupilNotes
 
 KEYS = {
     "book": ("place",),
@@ -36,6 +37,7 @@ KEYS = {
     "wishes": ("place",),
     "steps": ("place",),
     "events": ("step", "place"),
+    "pupil": ("place",),
 }
 """The key columns of each table, in an order in which rows can be written."""
 
@@ -136,7 +138,9 @@ def read(db: sqlite3.Connection, source: str) -> File:
     ancestors = _row_of(_read(db, "ancestors", AncestorEntry, source), about.ancestors, "ancestors", source)
     events = _events(_read(db, "events", EventEntry, source), steps, source)
     rules = _rules(db, about, source)
-    return File(about, BookEntry(FORMAT, trees, rules, wishes, events, about.lessons), steps, ancestors)
+    notes = _row_of(_read(db, "pupil", PupilNotes, source), about.pupil, "pupils", source)
+    rulebook = BookEntry(FORMAT, trees, rules, wishes, events, about.lessons)
+    return File(about, rulebook, steps, ancestors, notes[0] if notes else None)
 
 
 def _read(db: sqlite3.Connection, table: str, kind: type[T], source: str) -> dict[tuple, T]:

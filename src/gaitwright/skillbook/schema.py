@@ -33,7 +33,12 @@ CREATE TABLE events (step INTEGER NOT NULL REFERENCES steps (place), place INTEG
     PRIMARY KEY (step, place)) STRICT, WITHOUT ROWID;
 """
 
-MIGRATIONS: tuple[str, ...] = (FIRST,)
+PUPIL = """
+CREATE TABLE pupil (place INTEGER NOT NULL PRIMARY KEY CHECK (place = 0),
+    content TEXT NOT NULL, seal BLOB NOT NULL) STRICT;
+"""
+
+MIGRATIONS: tuple[str, ...] = (FIRST, PUPIL)
 """What makes each version from the one before. Books of every version load forever: only ever append."""
 
 LIMITS = {

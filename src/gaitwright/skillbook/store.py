@@ -55,6 +55,8 @@ def file_rows(entry: File) -> rows.Rows:
     """All rows of a book."""
     found = {("book", (0,)): encoded(entry.about)}
     found |= {("ancestors", (k,)): encoded(ancestor) for k, ancestor in enumerate(entry.ancestors)}
+    if entry.pupil is not None:
+        found["pupil", (0,)] = encoded(entry.pupil)
     found |= rows.book_rows(entry.rulebook, range(len(entry.rulebook.rules)))
     start = 0
     for place, step in enumerate(entry.steps):

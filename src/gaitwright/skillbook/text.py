@@ -34,10 +34,12 @@ from gaitwright.skillbook.entries import (
     LessonEntry,
     Place,
     StepEntry,
+    ToldEntry,
     Whole,
     encoded,
 )
 from gaitwright.skillbook.history import How
+from gaitwright.skillbook.pupil_notes import PupilNotes
 
 HEAD = "gaitwright skillbook text 1"
 END = "end"
@@ -82,6 +84,7 @@ class StepLine(Strict, frozen=True, omit_defaults=True):
     lesson: LessonEntry | None = None
     rulebook: BookEntry | None = None
     note: Text = ""
+    told: ToldEntry | None = None
 
 
 KINDS: dict[str, type] = {
@@ -95,6 +98,7 @@ KINDS: dict[str, type] = {
     "wish": WishEntry,
     "step": StepLine,
     "event": EventEntry,
+    "pupil": PupilNotes,
 }
 
 
@@ -118,10 +122,12 @@ def _lines(entry: File) -> Iterator[tuple[str, Any]]:
         yield "wish", wish
     start = 0
     for step in entry.steps:
-        yield "step", StepLine(step.how, step.lesson, step.rulebook, step.note)
+        yield "step", StepLine(step.how, step.lesson, step.rulebook, step.note, step.told)
         for event in book.events[start : start + step.events]:
             yield "event", event
         start += step.events
+    if entry.pupil is not None:
+        yield "pupil", entry.pupil
 
 
 def _rule_lines(rule: RuleEntry, trees: list[str]) -> Iterator[tuple[str, Any]]:
@@ -155,6 +161,7 @@ class Draft:
     rules: dict[str, "DraftRule"] = field(default_factory=dict)
     wishes: list[WishEntry] = field(default_factory=list)
     steps: list[tuple[StepLine, list[EventEntry]]] = field(default_factory=list)
+    pupils: list[PupilNotes] = field(default_factory=list)
 
 
 def read(content: str, source: str) -> File:
@@ -206,7 +213,15 @@ def _take(draft: Draft, line: str) -> None:
             raise _Misplaced("an event before any step")
         draft.steps[-1][1].append(value)
     else:
-        {"ancestor": draft.ancestors, "tree": draft.trees, "wish": draft.wishes}[word].append(value)
+        if word == "pupil" and draft.pupils:
+            raise _Misplaced("a second pupil in one text")
+        lists = {
+            "ancestor": draft.ancestors,
+            "tree": draft.trees,
+            "wish": draft.wishes,
+            "pupil": draft.pupils,
+        }
+        lists[word].append(value)
 
 
 def _file(draft: Draft, source: str) -> File:
@@ -218,13 +233,14 @@ def _file(draft: Draft, source: str) -> File:
     names = [tree.name for tree in trees]
     rules = tuple(_rule(rule, names, source) for rule in draft.rules.values())
     steps = tuple(
-        StepEntry(step.how, step.lesson, step.rulebook, step.note, len(events))
+        StepEntry(step.how, step.lesson, step.rulebook, step.note, len(events), step.told)
         for step, events in draft.steps
     )
     events = tuple(event for _, moved in draft.steps for event in moved)
-    counts = (len(steps), len(rules), len(wishes), len(trees), len(ancestors))
+    counts = (len(steps), len(rules), len(wishes), len(trees), len(ancestors), len(draft.pupils))
     about = About(b.name, b.robot, b.made_by, b.seed, b.lessons, *counts)
-    return File(about, BookEntry(FORMAT, trees, rules, wishes, events, b.lessons), steps, ancestors)
+    rulebook = BookEntry(FORMAT, trees, rules, wishes, events, b.lessons)
+    return File(about, rulebook, steps, ancestors, draft.pupils[0] if draft.pupils else None)
 
 
 def _rule(rule: DraftRule, trees: list[str], source: str) -> RuleEntry:

@@ -10,11 +10,13 @@ from gaitwright.errors import BadFile, WrongUse
 from gaitwright.knowledge.json_form import MAX_EVENTS
 from gaitwright.knowledge.modifier import Learned, Lesson
 from gaitwright.knowledge.restructure import Mended
-from gaitwright.knowledge.rules import Rulebook
+from gaitwright.knowledge.rules import Event, Rulebook
+from gaitwright.knowledge.told import Told
 from gaitwright.skillbook import rows
 from gaitwright.skillbook.book import Skillbook, about_of, book_of
-from gaitwright.skillbook.entries import encoded, event_entries, rulebook_entry, step_entry
+from gaitwright.skillbook.entries import checked, encoded, event_entries, rulebook_entry, step_entry
 from gaitwright.skillbook.history import Step, number_lesson
+from gaitwright.skillbook.pupil_notes import PupilNotes
 from gaitwright.skillbook.schema import MAX_BYTES, connected, located, migrate, number, sentences, version_of
 
 PATIENCE = 2000
@@ -69,6 +71,32 @@ class Ledger:
         rulebook_entry(rulebook)
         return self._append(Step("edited", None, replace(rulebook, events=()), note), rulebook)
 
+    def tell(self, told: Told, events: tuple[Event, ...] = ()) -> Skillbook:
+        """Stores what a pupil was told, and what that moved; her notes and rules come with `settle`.
+
+        Raises `WrongUse` where something of that name was told before.
+        """
+        if any(step.told and step.told.id == told.id for step in self.book.steps):
+            raise WrongUse(f"{told.id} was told before: what is told has a name of its own")
+        return self._append(Step("told", told=told), self._moved(events, 1))
+
+    def forget(
+        self, name: str, rulebook: Rulebook, notes: PupilNotes, events: tuple[Event, ...]
+    ) -> Skillbook:
+        """Stores that something told does not count any more, and what the pupil makes of the rest."""
+        after = replace(rulebook, events=self._moved(events).events)
+        return self._append(Step("forgotten", note=name), after, notes)
+
+    def settle(self, rulebook: Rulebook, notes: PupilNotes) -> Skillbook:
+        """Stores the rules that a pupil has made of all that she was told, and her notes."""
+        rulebook = replace(rulebook, events=self.book.rulebook.events)
+        return self._store(replace(self.book, rulebook=rulebook, pupil=notes), {})
+
+    def _moved(self, events: tuple[Event, ...], lessons: int = 0) -> Rulebook:
+        """The rules as they are in the file, with more events and lessons behind them."""
+        now = self.book.rulebook
+        return replace(now, events=(*now.events, *events), lessons=now.lessons + lessons)
+
     def close(self) -> None:
         """Leaves one file without a log beside it, unless someone is reading it now."""
         with suppress(sqlite3.Error):
@@ -77,7 +105,7 @@ class Ledger:
             self._db.execute("PRAGMA journal_mode=DELETE")
         self._db.close()
 
-    def _append(self, step: Step, rulebook: Rulebook) -> Skillbook:
+    def _append(self, step: Step, rulebook: Rulebook, notes: PupilNotes | None = None) -> Skillbook:
         """The book with one more step, once it is on the disk."""
         before = self.book.rulebook
         known = len(before.events)
@@ -85,15 +113,23 @@ class Ledger:
             raise WrongUse(f"what was learned does not go on from what {self.path} holds")
         if len(rulebook.events) > MAX_EVENTS:
             raise WrongUse(f"a skillbook holds at most {MAX_EVENTS} events")
+        step = replace(step, events=rulebook.events[known:])
+        pupil = self.book.pupil if notes is None else notes
+        book = replace(self.book, rulebook=rulebook, steps=(*self.book.steps, step), pupil=pupil)
+        return self._store(
+            book, rows.step_rows(len(self.book.steps), step_entry(step), event_entries(step.events))
+        )
+
+    def _store(self, book: Skillbook, added: rows.Rows) -> Skillbook:
+        """The book, once it is on the disk: what differs from the one there, and rows of a new step."""
         if self._lost:
             raise BadFile(self._lost)
-        step = replace(step, events=rulebook.events[known:])
-        book = replace(self.book, rulebook=rulebook, steps=(*self.book.steps, step))
-        added = rows.step_rows(len(self.book.steps), step_entry(step), event_entries(step.events))
         added["book", (0,)] = encoded(about_of(book))
+        if book.pupil is not None and book.pupil is not self.book.pupil:
+            added["pupil", (0,)] = encoded(checked(book.pupil, PupilNotes))
         with sentences(self.path):
             try:
-                rows.change(self._db, before, rulebook)
+                rows.change(self._db, self.book.rulebook, book.rulebook)
                 rows.put(self._db, added)
                 self._db.execute("COMMIT")
             except BaseException:  # an interrupt too: what was not acknowledged must not be half there

@@ -3,19 +3,21 @@
 from collections.abc import Mapping
 
 from gaitwright.errors import WrongUse
+from gaitwright.knowledge.expressed import read_in
 from gaitwright.knowledge.forest import Situation
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.knowledge.widen import widened
-from gaitwright.skills.situation import FOREST, READ_FROM
+from gaitwright.skills.situation import FOREST
+from gaitwright.skills.vocabulary import VOCABULARY
+from gaitwright.skills.wording import NUMBERS
+
+MEASURED = {column.name for column in VOCABULARY.columns}
+"""What a tree of numbers may be read from."""
 
 
 def in_trees_of(rulebook: Rulebook, now: Situation, raw: Mapping[str, float]) -> Situation:
-    """The situation in a rulebook's own trees: those that it grew are read from the measured numbers."""
-    forest = rulebook.forest
-    if now.trees == forest.names:
-        return now
-    ours = {tree.name: now[tree.name] for tree in forest.trees if tree.name in now.trees}
-    return forest.read({name: leaf for name, leaf in ours.items() if leaf in forest[name].leaf_place}, raw)
+    """The situation in a rulebook's own trees: those with bounds of its own are read from the numbers."""
+    return now if rulebook.forest == FOREST else read_in(rulebook.forest, VOCABULARY, NUMBERS, now, raw)
 
 
 def up_to_date(rulebook: Rulebook) -> Rulebook:
@@ -28,7 +30,7 @@ def up_to_date(rulebook: Rulebook) -> Rulebook:
         raise WrongUse(f"this rulebook knows nothing of {', '.join(FOREST.names)}: it is not about skills")
     for tree in own.trees:
         here = FOREST[tree.name].leaves if tree.name in FOREST.names else ()
-        if tree.leaves != here and not (tree.bounds and (tree.source or tree.name) in READ_FROM):
+        if tree.leaves != here and not (tree.bounds and (tree.source or tree.name) in MEASURED):
             there = f"that is {' or '.join(here)}" if here else f"nothing measures {tree.source or tree.name}"
             raise WrongUse(
                 f"this rulebook asks whether {tree.name} is {' or '.join(tree.leaves)}, and here {there}: "

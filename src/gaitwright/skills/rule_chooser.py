@@ -9,18 +9,23 @@ from gaitwright.errors import WrongUse
 from gaitwright.knowledge.compiled import Compiled, compile_book, decide
 from gaitwright.knowledge.forest import Forest, Situation
 from gaitwright.knowledge.memory import Action, Fact, applied, remembered
-from gaitwright.knowledge.rules import Rulebook
+from gaitwright.knowledge.rules import Rulebook, status
 from gaitwright.model.robot import Robot
 from gaitwright.signals import Route, Sensed, SkillCall
 from gaitwright.skills.book_trees import in_trees_of, up_to_date
 from gaitwright.skills.chooser import DefaultChooser
 from gaitwright.skills.library import fastest, find_skill, gait_of, skill_names, speed_scale
+from gaitwright.skills.measured import measured
 from gaitwright.skills.path_following import approach_speed, heading_error, turn_rate
-from gaitwright.skills.situation import measured, named
+from gaitwright.skills.situation import named
 from gaitwright.stages import Map, Now
 
 DOING = "rule in use"
 """The fact of working memory that names the rule that fired last."""
+CAREFUL, NO_GOAL = "goal", ("no goal", "arrived")
+"""The tree, and the values of it, at which a rule that was never seen right there moves nothing: where nobody
+knows, a robot without a goal stays where it is."""
+LACKING, UNSEEN = "wants a skill it does not have", "was never seen right without a goal"
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +60,8 @@ class RuleChooser:
         action = self.actions.get(ruling.rule or "")
         if action is None or action.skill not in skill_names(self.robot.n):
             return self.fallen_back(route, sensed, now, ruling)
+        if not self.is_safe(ruling, action):
+            return self.fallen_back(route, sensed, now, ruling, UNSEEN)
         kept = {**applied(action, memory), DOING: str(ruling.rule)}
         call = carry_out(self.robot, action, route, sensed)
         return replace(call, because=self.because(ruling), memory=kept)
@@ -66,7 +73,17 @@ class RuleChooser:
         if goes_on(action, situation):
             return Ruling(doing, True, True, situation)
         rule, sure = decide(self.compiled, dict(situation.items()))  # pyright: ignore[reportArgumentType]
-        return Ruling(rule, sure, False, situation)
+        return Ruling(rule, sure and rule in self.firm, False, situation)
+
+    def is_safe(self, ruling: Ruling, action: Action) -> bool:
+        """Whether a rule may move the robot: only where it was seen right with such a goal. A wish to move is
+        not enough."""
+        if find_skill(action.skill, self.robot).duty >= 1.0:
+            return True
+        forest, rule = self.rulebook.forest, self.rulebook[str(ruling.rule)]
+        seen = rule.marks_in(CAREFUL).lower if CAREFUL in forest.names else None
+        here = ruling.situation[CAREFUL] if CAREFUL in forest.names else None
+        return here not in NO_GOAL or (seen is not None and forest[CAREFUL].is_below(str(here), seen))
 
     def situation(self, raw: Mapping[str, float], now: SkillCall | None) -> Situation:
         """The situation in the rulebook's own trees: those of today and those it grew since."""
@@ -79,14 +96,19 @@ class RuleChooser:
         certainty = "sure" if ruling.sure else "not seen just like this before"
         return f"rule {ruling.rule}: {certainty}"
 
-    def fallen_back(self, route: Route, sensed: Sensed, now: SkillCall | None, ruling: Ruling) -> SkillCall:
+    def fallen_back(
+        self, route: Route, sensed: Sensed, now: SkillCall | None, ruling: Ruling, because: str = LACKING
+    ) -> SkillCall:
         """What the plain rules say, and why they were asked."""
         call = DefaultChooser(self.robot).choose(route, sensed, now)
-        asked = (
-            "no rule fires" if ruling.rule is None else f"rule {ruling.rule} wants a skill it does not have"
-        )
+        asked = "no rule fires" if ruling.rule is None else f"rule {ruling.rule} {because}"
         kept = {name: fact for name, fact in (now.memory if now else {}).items() if name != DOING}
         return replace(call, because=f"{asked}; plainly: {call.because}", memory=kept)
+
+    @cached_property
+    def firm(self) -> set[str]:
+        """The rules that were right often and widely enough for their word to be taken."""
+        return {rule.name for rule in self.rulebook.rules if status(rule) in ("stabilised", "firm")}
 
     @cached_property
     def compiled(self) -> Compiled:

@@ -1,31 +1,19 @@
-"""Route + Sensed → Situation: where the robot stands among the features that rules tell apart (§5.4.2.1).
+"""Numbers → Situation: where the robot stands among the features that rules tell apart (§5.4.2.1).
 
-`measured` reads plain numbers, in units that suit any robot: lengths of road in body heights, ways in body
-lengths, speeds as of a robot 0.29 m tall. `named` names the leaf of each tree they fall into. Nothing
-else looks at the world for the rules: a new feature is one tree here, and one number where none has it yet. A
-rulebook that was made before knows nothing of it and is indifferent to it (`book_trees.up_to_date`).
+`named` names the leaf of each tree that the numbers of `skills.measured` fall into. Nothing else looks at the
+world for the rules: a new feature is one tree here, and one number where none has it yet. A rulebook that was
+made before knows nothing of it and is indifferent to it (`book_trees.up_to_date`).
 """
 
 import math
 from collections.abc import Callable, Mapping
 
-import numpy as np
-
 from gaitwright.knowledge.forest import Forest, Situation
+from gaitwright.knowledge.memory import Fact
 from gaitwright.knowledge.trees import FeatureTree, interval_tree, tree
-from gaitwright.model.leg_motion import columns_of
-from gaitwright.model.robot import Robot
-from gaitwright.numerics.geometry import GRAVITY, dot, heading, roll_pitch_yaw, rotation, times_t, vec, wrap
-from gaitwright.numerics.matrices import rows
-from gaitwright.signals import Route, Scan, Sensed, SkillCall
+from gaitwright.signals import SkillCall
 from gaitwright.skills.chooser import KEEP_TURNING, TURN_FIRST
-from gaitwright.skills.library import LIBRARY, OTHER_NAMES, speed_scale
-from gaitwright.skills.path_following import approach_speed, bearing, heading_error, wished_speed
-
-LOADED = 0.02
-"""A foot that carries this share of the weight is down."""
-OUT_OF_SIGHT = 20.0
-"""Obstacles farther than this count as being this far [body lengths]."""
+from gaitwright.skills.library import LIBRARY, OTHER_NAMES
 
 GAP, STEP, STEEP, GENTLE, SMOOTH, UNEVEN = 0.1, 0.14, 8.0, 3.0, 0.03, 0.06
 """Where names of the road begin: gap and step [body heights], steep and gentle slope [°], roughness and small
@@ -134,80 +122,24 @@ def named(raw: Mapping[str, float], call: SkillCall | None = None) -> Situation:
     return Situation(FOREST.names, tuple(leaf_named(tree, raw, call) for tree in FOREST.trees))
 
 
+def situation_of(facts: Mapping[str, Fact]) -> Situation:
+    """The situation that facts describe, numbers and what the robot has been doing; a tree whose facts were
+    not measured is open."""
+    numbers = {name: fact for name, fact in facts.items() if not isinstance(fact, str)}
+    known: dict[str, str | None] = {}
+    for feature in FOREST.trees:
+        try:
+            known[feature.name] = leaf_named(feature, numbers, None)
+        except KeyError:
+            known[feature.name] = None
+    return FOREST.read({**known, "doing": str(facts["doing"])} if "doing" in facts else known, {})
+
+
 def leaf_named(tree: FeatureTree, raw: Mapping[str, float], call: SkillCall | None) -> str:
     """The leaf of one tree, by its own rule or by the interval that its number is in."""
     if tree.name in NAMED_BY:
         return NAMED_BY[tree.name](raw, call)
     return tree.leaf_of(raw[NUMBER_OF.get(tree.name, tree.source or tree.name)])
-
-
-# --- numbers ---------------------------------------------------------------------------------------
-def measured(robot: Robot, route: Route, sensed: Sensed, call: SkillCall | None = None) -> dict[str, float]:
-    """What rules and teachers go by, as plain numbers (degrees; see the module for the other units).
-
-    With no scan the road is what the body's lean says. `possible` is the wished speed as far as it leaves
-    time to stop; `arrived` is −1 where there is nowhere to go.
-    """
-    scan = route.ahead or felt(sensed)
-    h, unit, scale = robot.height, robot.body_length, speed_scale(robot)
-    down = float(np.mean(sensed.load > LOADED * robot.total_mass * GRAVITY))
-    going = bool(route.path) and not route.arrived
-    off, way = (heading_error(route, sensed), bearing(route, sensed)) if going else (0.0, scan.course)
-    numbers = {
-        "feet down": down,
-        "slope": math.degrees(scan.slope),
-        "roughness": scan.roughness / h,
-        "step up": scan.step_up / h,
-        "step down": scan.step_down / h,
-        "gap": scan.gap / h,
-        "remaining": route.remaining / unit,
-        "points left": float(len(route.path)),
-        "arrived": 1.0 if route.arrived else 0.0 if route.path else -1.0,
-        "off the path": math.degrees(off),
-        "wished": wished_speed(robot, route) / scale,
-        "possible": approach_speed(robot, route) / scale,
-        "sway": sway(robot, sensed, scan),
-        "obstacle": min(OUT_OF_SIGHT, scan.obstacle / unit),
-        "effort": torque_utilisation(robot, sensed),
-        "direction": math.degrees(float(wrap(way))),
-        "familiar": float(scan.familiar),
-        "turning": float(doing_of(call) == "turning"),
-        "speed": math.hypot(float(sensed.velocity_w[0]), float(sensed.velocity_w[1])) / scale,
-    }
-    return numbers
-
-
-def felt(sensed: Sensed) -> Scan:
-    """The ground as the body's lean tells it, where nobody looked ahead."""
-    roll, pitch, yaw = roll_pitch_yaw(rotation(sensed.orientation_wb))
-    return Scan(slope=-float(pitch), cross=float(roll), course=float(yaw))
-
-
-def sway(robot: Robot, sensed: Sensed, scan: Scan) -> float:
-    """How far the body is from steady: roll off the ground [rad], roll rate and sideways speed.
-
-    Rates are taken over √(h/g) and speeds as shares of √(g h), so that one scale fits all robots.
-    """
-    pose = rotation(sensed.orientation_wb)
-    roll = float(roll_pitch_yaw(pose)[0]) - scan.cross
-    yaw = heading(pose)
-    sideways = float(math.cos(yaw) * sensed.velocity_w[1] - math.sin(yaw) * sensed.velocity_w[0])
-    rate = float(sensed.angular_velocity_b[0])
-    w = robot.natural_frequency
-    return math.hypot(roll, rate / w, sideways / (w * robot.height))
-
-
-def torque_utilisation(robot: Robot, sensed: Sensed) -> float:
-    """Largest share of a motor's torque that the loads on the feet ask for by themselves: |Jᵀ f| / τ_max."""
-    up_b = times_t(rotation(sensed.orientation_wb), (0.0, 0.0, 1.0))
-    most = 0.0
-    for i in range(robot.n):
-        up = times_t(robot.leg_frame[i], up_b)
-        columns = columns_of(vec(sensed.q[i]), rows(robot.offset[i]), robot.sign[i])
-        load = float(sensed.load[i])
-        for column, limit in zip(columns, vec(robot.tau_max[i]), strict=True):
-            most = max(most, abs(dot(column, up)) * load / limit)
-    return most
 
 
 # --- names -----------------------------------------------------------------------------------------

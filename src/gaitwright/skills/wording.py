@@ -1,8 +1,9 @@
 """Which tree of the situation space reads which column, so that what is learned on numbers is said in its
 words."""
 
-from gaitwright.knowledge.expressed import Wording
+from gaitwright.knowledge.expressed import Wording, number_columns
 from gaitwright.skills.situation import FOREST, NUMBER_OF
+from gaitwright.skills.vocabulary import VOCABULARY
 
 WORDING = Wording(
     FOREST,
@@ -13,3 +14,6 @@ WORDING = Wording(
     },
 )
 """Distance is read from what remains, pace from the speed that is possible, stability from the sway."""
+
+NUMBERS = number_columns(VOCABULARY, WORDING)
+"""The place of the column that each tree of numbers reads."""

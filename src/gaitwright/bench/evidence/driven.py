@@ -13,8 +13,9 @@ from gaitwright.learning.skill_pupil import facts_of
 from gaitwright.model.robot import Robot
 from gaitwright.signals import Route, Sensed, SkillCall
 from gaitwright.skills.chooser import DefaultChooser
+from gaitwright.skills.measured import measured
 from gaitwright.skills.rule_chooser import carry_out
-from gaitwright.skills.situation import doing_of, measured
+from gaitwright.skills.situation import doing_of
 from gaitwright.skills.vocabulary import VOCABULARY
 
 PER_TRIP = 10

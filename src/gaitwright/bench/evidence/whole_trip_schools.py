@@ -1,51 +1,56 @@
 """Schools over whole trips with a teacher who is never silent: how right, how short, how sure."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from gaitwright.bench.context import Context
 from gaitwright.bench.measurement import Figure, at_least, at_most
 from gaitwright.bench.trial import robot_named
-from gaitwright.learning.critic import DecisionPoint
-from gaitwright.learning.exam import held_out
+from gaitwright.learning.exam import Result, examined, held_out
+from gaitwright.learning.school import SchoolReport, attend
 from gaitwright.learning.skill_pupil import SkillPupil
 from gaitwright.learning.teacher import ScriptedTeacher
-from gaitwright.learning.whole_trips import attend_trips
 
-SCHOOLS, LABELS, EXAM = 3, (400, 800, 1600, 2400), 1000
+SCHOOLS, TRIPS, EXAM = 3, (5, 10, 20, 40), 1000
+"""Pupils, the trips after which they are examined, and the moments of an exam."""
 
 
-@dataclass(frozen=True, slots=True)
-class Examined:
-    """A pupil after so many labels: shares of an exam, and how many rules (the last line counts)."""
+@dataclass
+class Schooled:
+    """A pupil, what came of her exams, how many lessons she had had and how many rules she had then (the
+    last line counts)."""
 
-    right: float
-    sure: float
-    wrong_while_sure: float
-    rules: int
+    pupil: SkillPupil
+    results: list[Result] = field(default_factory=list)
+    lessons: list[int] = field(default_factory=list)
+    corrected: list[int] = field(default_factory=list)
+    rules: list[int] = field(default_factory=list)
 
 
 def schools(context: Context) -> Iterator[Figure]:
     """What whole schools come to, with the teacher's reasons."""
-    labels = LABELS[:1] if context.quick else LABELS
-    each = [school(context, seed, labels) for seed in context.seeds(SCHOOLS, quick=1)]
-    for k, n in enumerate(labels):
-        wanted = at_least(95.5) if n == LABELS[-1] else None
-        found = [row[k] for row in each]
+    trips = TRIPS[:1] if context.quick else TRIPS
+    each = [school(context, seed, trips) for seed in context.seeds(SCHOOLS, quick=1)]
+    for k, n in enumerate(trips):
+        wanted = at_least(97.0) if n == TRIPS[-1] else None
+        found = [row.results[k] for row in each]
+        lessons, corrected, rules = (
+            told([getattr(row, name)[k] for row in each]) for name in ("lessons", "corrected", "rules")
+        )
         note = (
-            f"{told([e.rules for e in found])} rules, sure in {100 * np.mean([e.sure for e in found]):.0f} %"
+            f"{lessons} lessons, {corrected} of them corrections; {rules} rules, sure in "
+            f"{100 * np.mean([e.sure for e in found]):.0f} %"
         )
         right = [100.0 * e.right for e in found]
-        what = f"whole trips, no border: right after {n} labels"
+        what = f"whole trips: right after {n} trips"
         yield Figure(what, float(np.mean(right)), "%", wanted, len(found), note, {"each": right})
-    last = [row[-1] for row in each]
-    most = float(max(e.rules for e in last))
-    yield Figure("whole trips: most rules", most, "", at_most(25.0), len(last))
-    worst = 100.0 * max(e.wrong_while_sure for row in each for e in row)
+    most = float(max(row.rules[-1] for row in each))
+    yield Figure("whole trips: most rules", most, "", at_most(25.0), len(each))
+    worst = 100.0 * max(e.wrong_while_sure for row in each for e in row.results)
     what = "whole trips: wrong while sure, of all moments, the worst"
-    yield Figure(what, worst, "%", at_most(1.0), len(each) * len(labels))
+    yield Figure(what, worst, "%", at_most(1.0), len(each) * len(trips))
 
 
 def told(numbers: Sequence[int]) -> str:
@@ -53,25 +58,18 @@ def told(numbers: Sequence[int]) -> str:
     return f"{min(numbers)}" if min(numbers) == max(numbers) else f"{min(numbers)} to {max(numbers)}"
 
 
-def school(context: Context, seed: int, labels: Sequence[int]) -> list[Examined]:
-    """One pupil, examined after so many labels each time, on scenes that she never saw."""
-    robot, teacher = robot_named("go2"), ScriptedTeacher(border=0.0)
-    pupil, exam = SkillPupil(seed), held_out(robot, teacher, seed, EXAM)
-    found: list[Examined] = []
+def school(context: Context, seed: int, trips: Sequence[int]) -> Schooled:
+    """One pupil, examined after so many trips each time, on scenes that she never saw."""
+    robot, teacher = robot_named("go2"), ScriptedTeacher()
+    taught, exam = Schooled(SkillPupil(seed)), held_out(robot, teacher, seed, EXAM)
 
-    def after(done: int) -> None:
-        context.voice.say(f"school {seed} over whole trips: {done} of {labels[-1]} labels", now=False)
-        if done in labels:
-            found.append(examined(pupil, teacher, exam))
+    def after(report: SchoolReport) -> None:
+        context.voice.say(f"school {seed}: {report.trips} of {trips[-1]} trips", now=False)
+        if report.trips in trips:
+            taught.results.append(examined(taught.pupil, teacher, exam))
+            taught.lessons.append(len(taught.pupil.told))
+            taught.corrected.append(report.given["corrected"])
+            taught.rules.append(len(taught.pupil.pupil.lines.rules) + 1)
 
-    attend_trips(pupil, robot, teacher, labels[-1], after)
-    return found
-
-
-def examined(pupil: SkillPupil, teacher: ScriptedTeacher, exam: Sequence[DecisionPoint]) -> Examined:
-    """How a pupil does in an exam."""
-    choices = pupil.choose_all(exam)
-    truth = [teacher.ideal(moment.raw).action for moment in exam]
-    right = np.array([choice.action == action for choice, action in zip(choices, truth, strict=True)])
-    sure = np.array([choice.sure for choice in choices])
-    return Examined(right.mean(), sure.mean(), (sure & ~right).mean(), len(pupil.pupil.lines.rules) + 1)
+    attend(taught.pupil, robot, teacher, seed, trips[-1], after=after)
+    return taught

@@ -1,0 +1,120 @@
+"""A pupil ↔ the notes on her in a skillbook: she goes on as if she had never stopped."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from gaitwright.errors import BadFile
+from gaitwright.induction.cases import no_cases, table_of
+from gaitwright.induction.decision_list import Bound, Lines, RuleLine
+from gaitwright.induction.standing import standing_of
+from gaitwright.knowledge.told import Told
+from gaitwright.learning.skill_pupil import SkillPupil
+from gaitwright.skillbook.book import Skillbook
+from gaitwright.skillbook.history import all_told, forgotten
+from gaitwright.skillbook.pupil_notes import ColumnBound, ListedRule, PupilNotes, RuleList
+from gaitwright.skills.vocabulary import VOCABULARY
+
+PLACES = {column.name: k for k, column in enumerate(VOCABULARY.columns)}
+
+
+def notes_of(taught: SkillPupil, heard: int) -> PupilNotes:
+    """What a pupil has made of `heard` lessons, those forgotten included."""
+    pupil = taught.pupil
+    weights = pupil.cases.weight
+    return PupilNotes(
+        heard,
+        pupil.seed,
+        listed(pupil.lines),
+        tuple(listed(rival) for rival in pupil.rivals),
+        None if pupil.draft is None else listed(pupil.draft),
+        pupil.age,
+        pupil.drafts,
+        pupil.since,
+        tuple((k, float(weights[k])) for k in np.flatnonzero(weights != 1.0).tolist()),
+        yes_or_no(pupil.surprises),
+        yes_or_no(pupil.drift.mistakes),
+    )
+
+
+def pupil_of(book: Skillbook) -> SkillPupil:
+    """The pupil of a book, who has heard everything that it holds. Raises `BadFile` for a book over numbers
+    that nobody measures."""
+    taught, rest = pupil_as_noted(book)
+    for told in rest:
+        taught.hear(told)
+    return taught
+
+
+def pupil_as_noted(book: Skillbook) -> tuple[SkillPupil, list[Told]]:
+    """The pupil as her notes have her, and what she was told since then."""
+    told, notes = all_told(book.steps), book.pupil
+    if notes is None:
+        return SkillPupil(book.seed), told
+    gone, taught = forgotten(book.steps), SkillPupil(notes.seed)
+    for one in told[: notes.heard]:
+        taught.note(one)
+    taught.told = [one for one in told[: notes.heard] if one.id not in gone]
+    restore(taught, notes, book.name)
+    return taught, told[notes.heard :]
+
+
+def restore(taught: SkillPupil, notes: PupilNotes, source: str) -> None:
+    """Puts what the notes say into a pupil who knows what she was told."""
+    pupil, n = taught.pupil, len(taught.told)
+    if len(notes.surprises) != n or notes.since > n or any(case >= n for case, _ in notes.weights):
+        raise BadFile(f"{source}: the notes on its pupil are about other lessons than it holds")
+    lessons = [taught.lesson_of(told) for told in taught.told]
+    empty = no_cases(VOCABULARY.reads, VOCABULARY.price)
+    rows = np.array([lesson.row for lesson in lessons]).reshape(n, len(VOCABULARY.columns))
+    numbers = np.array([(lesson.action, lesson.reason, lesson.scene) for lesson in lessons], np.int64)
+    actions, reasons, scenes = np.ascontiguousarray(numbers.reshape(n, 3).T)
+    table = table_of(rows, actions, reasons, empty)
+    named = np.zeros((len(taught.actions), len(VOCABULARY.columns)), np.bool_)
+    named[: len(table.named)] = table.named
+    for case, weight in notes.weights:
+        table.weight[case] = weight
+    pupil.cases = table._replace(named=named)
+    pupil.scene = scenes
+    pupil.lines = lines_of(notes.own, source)
+    pupil.rivals = [lines_of(rival, source) for rival in notes.rivals]
+    pupil.draft = None if notes.draft is None else lines_of(notes.draft, source)
+    pupil.age, pupil.drafts, pupil.since = notes.age, notes.drafts, notes.since
+    pupil.surprises = [mark == "1" for mark in notes.surprises]
+    pupil.drift.mistakes = [mark == "1" for mark in notes.mistakes]
+    pupil.standing = standing_of(pupil.lines, pupil.cases, pupil.scene, pupil.since)
+
+
+def listed(lines: Lines) -> RuleList:
+    """A list with its columns by their names."""
+    rules = (ListedRule(rule.action, tuple(map(listed_bound, rule.bounds))) for rule in lines.rules)
+    return RuleList(tuple(rules), lines.otherwise)
+
+
+def listed_bound(bound: Bound) -> ColumnBound:
+    """One condition, its open ends without a number."""
+    low, high = (float(end) if np.isfinite(end) else None for end in (bound.low, bound.high))
+    return ColumnBound(VOCABULARY.columns[bound.column].name, low, high)
+
+
+def lines_of(rules: RuleList, source: str) -> Lines:
+    """A list with its columns by their places. Raises `BadFile` for one that is not known here."""
+    return Lines(tuple(line_of(rule, source) for rule in rules.rules), rules.otherwise)
+
+
+def line_of(rule: ListedRule, source: str) -> RuleLine:
+    bounds = []
+    for bound in rule.bounds:
+        if bound.column not in PLACES:
+            raise BadFile(
+                f"{source}: its rules ask for {bound.column!r}, which nobody measures here: it was taught by "
+                "another version"
+            )
+        low = -np.inf if bound.low is None else bound.low
+        high = np.inf if bound.high is None else bound.high
+        bounds.append(Bound(PLACES[bound.column], float(low), float(high)))
+    return RuleLine(rule.action, tuple(bounds))
+
+
+def yes_or_no(marks: Sequence[bool]) -> str:
+    return "".join("1" if mark else "0" for mark in marks)
