@@ -171,8 +171,22 @@ def add_teach(parser: argparse.ArgumentParser) -> None:
     policy = "a teacher of your own: rules in order in a TOML file, see docs/rules.md (the scripted one)"
     parser.add_argument("--policy", metavar="FILE", help=policy)
     trips = "trips that the pupil drives with the teacher watching (40)"
-    parser.add_argument("--trips", type=count, default=40, metavar="N", help=trips)
+    parser.add_argument("--trips", type=count, metavar="N", help=trips)
     parser.add_argument("--seed", type=seed, default=0, metavar="N", help="draws the trips (0)")
+    live = "teach in person: on a mission (--scene, --goal) or a recording; `help` lists what you can say"
+    parser.add_argument("--live", action="store_true", help=live)
+    parser.add_argument("--scene", metavar="NAME|FILE", help="--live: where the mission is (flat)")
+    pose = ("X", "Y", "YAW")
+    begin = "--live: where it begins, yaw in radians (where the scene says)"
+    parser.add_argument("--start", dest="place", type=finite, nargs=3, metavar=pose, help=begin)
+    parser.add_argument(
+        "--goal", type=finite, nargs=2, metavar=("X", "Y"), help="--live: where it leads, in m"
+    )
+    parser.add_argument("--speed", type=positive, metavar="V", help="--live: wished speed, in m/s")
+    longest = "--live: longest time to simulate (120)"
+    parser.add_argument("--seconds", type=duration, default=120.0, metavar="T", help=longest)
+    past = "--live: teach at the moments of this recording of a mission (recording.npz)"
+    parser.add_argument("--recording", metavar="FILE", help=past)
 
 
 def add_explain(parser: argparse.ArgumentParser) -> None:

@@ -11,7 +11,7 @@ from gaitwright.knowledge.counterfactual import Counterfactual, counterfactual
 from gaitwright.knowledge.cutting import is_word, spoken
 from gaitwright.knowledge.explain import NEAREST, STATUS, last_move, listed, move_text, why, why_not
 from gaitwright.knowledge.forest import Situation
-from gaitwright.knowledge.rules import Rule, Rulebook, outside, status
+from gaitwright.knowledge.rules import Rule, Rulebook, covers, outside, status
 from gaitwright.knowledge.trees import ROOT, FeatureTree
 
 
@@ -110,10 +110,11 @@ def changes(rulebook: Rulebook, situation: Situation, names: list[str]) -> list[
 
 
 def movers(rulebook: Rulebook, rule: Rule, situation: Situation | None) -> Iterator[tuple[str, ...]]:
-    """For each tree the value, the marks of a rule, and the lessons that put them there."""
+    """For each tree that the rule goes by, or in which it was not seen right here, the value, its marks, and
+    the lessons that put them there."""
     for tree, marks in zip(rulebook.forest.trees, rule.marks, strict=True):
         here = situation[tree.name] if situation else ""
-        if marks.upper == ROOT and marks.lower == ROOT:
+        if marks.upper == ROOT and (marks.lower == ROOT or covers(tree, marks.lower, here)):
             continue
         yield (
             tree.name,
@@ -126,8 +127,9 @@ def movers(rulebook: Rulebook, rule: Rule, situation: Situation | None) -> Itera
 
 
 def mover(rulebook: Rulebook, rule: str, tree: str, mark: str) -> str:
-    """The lesson that put a mark where it is; empty where it never moved."""
-    event = last_move(rulebook, rule, tree, mark)
+    """The lesson that put a mark where it is, else the one that made the rule; empty where none did."""
+    born = mark == "upper" and rulebook[rule].marks_in(tree).upper != ROOT
+    event = last_move(rulebook, rule, tree, mark) or (last_move(rulebook, rule, "", "rule") if born else None)
     return "" if event is None else event.instance or "by analogy"
 
 

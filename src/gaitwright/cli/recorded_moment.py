@@ -3,13 +3,15 @@
 import numpy as np
 
 from gaitwright.errors import WrongUse
-from gaitwright.knowledge.memory import Memory, remembered
+from gaitwright.knowledge.memory import Fact, Memory, remembered
 from gaitwright.record.metrics import attitude
 from gaitwright.record.moment import call_at, route_at, sensed_at
 from gaitwright.record.recording import Recording, load
 from gaitwright.skills.library import LIBRARY, OTHER_NAMES
 from gaitwright.skills.measured import measured
 from gaitwright.skills.situation import named
+from gaitwright.skills.vocabulary import VOCABULARY
+from gaitwright.skills.wording import NUMBERS
 
 
 def recorded_facts(path: str, at: float | None) -> tuple[float, Memory]:
@@ -38,11 +40,12 @@ def recorded_facts(path: str, at: float | None) -> tuple[float, Memory]:
         "pitch": pitch,
         "feet down": float(recording.at("stance", tick).sum()),
     }
-    return float(time[tick]), remembered(situation_at(recording, tick) | facts)
+    return float(time[tick]), remembered(facts | situation_at(recording, tick))
 
 
-def situation_at(recording: Recording, tick: int) -> dict[str, str]:
-    """The leaf of each tree of our own situation space; nothing where an older recording does not tell."""
+def situation_at(recording: Recording, tick: int) -> dict[str, Fact]:
+    """The leaf of each tree of our own situation space, or the number that it is read from, and all numbers
+    that a rule may go by; nothing where an older recording does not tell."""
     route = route_at(recording, tick)
     if route is None:
         return {}
@@ -50,5 +53,7 @@ def situation_at(recording: Recording, tick: int) -> dict[str, str]:
     known = before.skill in LIBRARY or before.skill in OTHER_NAMES
     sensed = sensed_at(recording, tick)
     call = before if known else None
-    leaves = named(measured(recording.robot, route, sensed, call), call)
-    return {tree: leaf for tree, leaf in leaves.items() if leaf is not None}
+    raw = measured(recording.robot, route, sensed, call)
+    leaves = {tree: leaf for tree, leaf in named(raw, call).items() if leaf is not None}
+    numbers = {column.name: column.read(raw) for column in VOCABULARY.columns if not column.values}
+    return {**leaves, **{tree: VOCABULARY.columns[k].read(raw) for tree, k in NUMBERS.items()}, **numbers}

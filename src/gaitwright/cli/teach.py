@@ -4,6 +4,7 @@ import json
 from argparse import Namespace
 from collections import Counter
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 from time import perf_counter
 
@@ -11,7 +12,7 @@ from gaitwright.cli.book_files import is_skillbook, new_file, skillbook_of
 from gaitwright.cli.console import remark, show_pairs, working
 from gaitwright.cli.output import check_json, settled, write_json
 from gaitwright.cli.trips import find_robot
-from gaitwright.errors import GaitwrightError, WrongUse
+from gaitwright.errors import WrongUse
 from gaitwright.knowledge.rules import Event, Rulebook, status
 from gaitwright.knowledge.told import Told
 from gaitwright.learning.analogies import proposals
@@ -31,33 +32,55 @@ from gaitwright.skills.situation import FOREST
 
 EXAM = 1000
 """Situations that the pupil is asked about at the end."""
+TRIPS = 40
+"""Trips of a school, unless so many are named."""
 EVERY = 10.0
 """Progress is told this often [s]."""
 
 
 def run(args: Namespace) -> int:
     check_json(args.json)
+    check_live(args)
     robot, path = find_robot(args.robot, args.package), settled(args.out, "--out")
     teacher = teacher_for(robot) if args.policy is None else ScriptedTeacher(policy_in(args.policy, robot))
     is_new = not is_book_of(robot, path, args)
     if is_new:
         begun(robot, new_file(args.out, "skillbook").stem, args).save(path)
-    began = perf_counter()
     try:
         with open_for_learning(path) as ledger:
-            pupil, report = taught(robot, teacher, ledger, args)
-            rulebook = ledger.book.rulebook
+            told_again(ledger)
+            if args.live:
+                import_module("gaitwright.cli.teach_live").run(robot, ledger, args)
+            else:
+                go_to_school(robot, teacher, ledger, args)
     except KeyboardInterrupt:
         remark(f"gaitwright: interrupted; what was learned so far is in {path}: the same command goes on")
         return 130
-    except GaitwrightError:
+    finally:
         if is_new and len(Skillbook.load(path).steps) == 1:  # nothing was learned
             path.unlink()
-        raise
-    with working("the exam", worth_a_line=False):
-        result = examined(pupil, teacher, held_out(robot, teacher, args.seed, EXAM))
-    tell(pupil, rulebook, report, result, perf_counter() - began, args)
     return 0
+
+
+def check_live(args: Namespace) -> None:
+    """`WrongUse` for options that do not go together."""
+    asked = {"scene": args.scene, "goal": args.goal, "start": args.place, "speed": args.speed}
+    where = [name for name, value in {**asked, "recording": args.recording}.items() if value is not None]
+    if not args.live and where:
+        raise WrongUse(f"--{where[0]} is where a person teaches: add --live")
+    if not args.live:
+        return
+    if args.policy is not None or args.trips is not None or args.json is not None:
+        raise WrongUse("with --live a person teaches: leave --policy, --trips and --json out")
+    if args.recording is not None and where != ["recording"]:
+        raise WrongUse(
+            "a recording has its own scene and goal: leave --scene, --goal, --start and --speed out"
+        )
+    if args.recording is None and args.goal is None:
+        raise WrongUse(
+            "teach where? name a mission by --scene NAME --goal X Y, or one that was by --recording"
+        )
+    args.scene = args.scene or "flat"
 
 
 def is_book_of(robot: Robot, path: Path, args: Namespace) -> bool:
@@ -95,33 +118,40 @@ def check_teachable(book: Skillbook, path: Path | str) -> None:
 
 
 # --- the school ------------------------------------------------------------------------------------
+def go_to_school(robot: Robot, teacher: ScriptedTeacher, ledger: Ledger, args: Namespace) -> None:
+    """The school and its exam, and what came of them."""
+    began = perf_counter()
+    pupil, report = taught(robot, teacher, ledger, args)
+    with working("the exam", worth_a_line=False):
+        result = examined(pupil, teacher, held_out(robot, teacher, args.seed, EXAM))
+    tell(pupil, ledger.book.rulebook, report, result, perf_counter() - began, args)
+
+
 def taught(
     robot: Robot, teacher: ScriptedTeacher, ledger: Ledger, args: Namespace
 ) -> tuple[SkillPupil, SchoolReport]:
     """The school, with progress, every lesson in the ledger before the next."""
-    spoke, began = -EVERY, perf_counter()
+    spoke, began, trips = -EVERY, perf_counter(), args.trips or TRIPS
 
     def progress(report: SchoolReport) -> None:
         nonlocal spoke
         settle(ledger, pupil)
         now = perf_counter() - began
-        if now - spoke >= EVERY or report.trips == args.trips:
+        if now - spoke >= EVERY or report.trips == trips:
             spoke = now
-            remark(f"trips: {report.trips} of {args.trips}, {wrong_in(report)} ({now:.0f} s)")
-
-    pupil, first, known = ready(ledger, args.seed)
+            remark(f"trips: {report.trips} of {trips}, {wrong_in(report)} ({now:.0f} s)")
 
     def keep(told: Told, events: tuple[Event, ...]) -> None:
         ledger.tell(told, events)
 
-    report = attend(pupil, robot, teacher, args.seed, args.trips, first, keep, progress, known=known)
+    pupil, first, known = ready(ledger, args.seed)
+    report = attend(pupil, robot, teacher, args.seed, trips, first, keep, progress, known=known)
     settle(ledger, pupil)
     return pupil, report
 
 
 def ready(ledger: Ledger, seed: int) -> tuple[SkillPupil, int, dict[str, Told]]:
     """The pupil of a book, the school's trip that she goes on with, and what she was told on it already."""
-    told_again(ledger)
     pupil, rest = pupil_as_noted(ledger.book)
     heard = all_told(ledger.book.steps)[: len(all_told(ledger.book.steps)) - len(rest)]
     first = after_last(heard, seed)

@@ -11,7 +11,7 @@ from gaitwright.induction.columns import Vocabulary
 from gaitwright.induction.decision_list import Lines, actions_of, fired
 from gaitwright.induction.drift import WINDOW, Drift
 from gaitwright.induction.marks import settled
-from gaitwright.induction.repair import bits_of, repaired
+from gaitwright.induction.repair import bits_of, lightened, repaired
 from gaitwright.induction.revision import FEW, begun, revised, sample
 from gaitwright.induction.standing import Standing, standing_of, upper_marks
 
@@ -168,7 +168,7 @@ class Pupil:
         return Heard(before, self.lines, verdict, how, was_revised, tuple(self.standing.aside.tolist()))
 
     def forget(self, case: int) -> None:
-        """Takes a lesson out, as if it had never been heard, and searches on without it."""
+        """Takes a lesson out, as if it had never been heard, and with it what it alone was kept for."""
         self._widest, before = None, self.lines
         rest = np.delete(np.arange(self.cases.n), case)
         old = self.cases
@@ -182,7 +182,7 @@ class Pupil:
         if not len(rest):
             self.lines, self.rivals, self.draft = Lines(), [], None
         else:
-            self.revise(EACH_MISTAKE)
+            self.lines = lightened(self.lines, self.cases)
             self.lines = settled(self.lines, self.cases, self.vocabulary.known, before)
         self.standing = standing_of(self.lines, self.cases, self.scene, self.since)
 

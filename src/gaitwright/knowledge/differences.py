@@ -98,14 +98,15 @@ def change(vocabulary: Vocabulary, wording: Wording, c: int, old: RuleLine, new:
 
 
 def reordered(before: Stage, after: Stage, same: dict[int, int]) -> Iterator[Event]:
-    """For each rule that comes before another now which it came after, the first of these."""
+    """For each rule that comes before another now which it came after, and takes lessons from it so, the
+    first of these."""
+    taken = set(zip(after.fire.tolist(), before.fire.tolist(), strict=True))
     rows = sorted(same)
     for k, r in enumerate(rows):
-        passed = [later for later in rows[k + 1 :] if same[later] < same[r]]
+        passed = [p for p in rows[k + 1 :] if same[p] < same[r] and (r, same[p]) in taken]
         if passed and after.names[r] and after.names[passed[0]]:
-            name, other = after.names[r], after.names[passed[0]]
-            why = f"{name} now comes before {other}"
-            yield Event("", name, "", "order", str(same[r] + 1), str(r + 1), why)
+            why = f"{after.names[r]} now comes before {after.names[passed[0]]}"
+            yield Event("", after.names[r], "", "order", str(same[r] + 1), str(r + 1), why)
 
 
 # --- in words --------------------------------------------------------------------------------------

@@ -91,7 +91,7 @@ def clause_of(entry: RuleEntry, robot: Robot) -> Clause:
 
 def condition_of(said: str) -> tuple[Column, Callable[[float], bool]]:
     """The column that a condition looks at, and the test of its number. Raises `WrongUse`."""
-    if said in COLUMNS:  # "doing is walking"
+    if said in COLUMNS and COLUMNS[said].values:  # "doing is walking"
         return COLUMNS[said], lambda number: number > 0.5
     found = COMPARED.match(said)
     if found is None:

@@ -13,7 +13,7 @@ from gaitwright.bench.peers.rules_client import TEACHERS, RulesPeer
 from gaitwright.bench.teachers import BenchTeacher, Facts
 from gaitwright.bench.trial import robot_named
 from gaitwright.induction.cases import NOBODY
-from gaitwright.induction.pupil import STEPPED_IN, Lesson, Pupil
+from gaitwright.induction.pupil import Lesson, Pupil
 from gaitwright.learning.trips import EXAM
 from gaitwright.model.robot import Robot
 from gaitwright.skills.situation import DOING
@@ -114,9 +114,7 @@ class Classroom:
         self.heard.append((facts, said.skill))
         for pupil, about in ((self.silent, ""), (self.told, said.about)):
             reason = VOCABULARY.place_of(about) if about else NOBODY
-            row, action = VOCABULARY.row(facts), self.skills.index(said.skill)
-            weight = 1.0 if pupil.decide(row).action == action else STEPPED_IN
-            lesson = Lesson(row, action, reason, scene, weight)
+            lesson = Lesson(VOCABULARY.row(facts), self.skills.index(said.skill), reason, scene)
             self.took.append(timed(pupil, lesson))
 
     def questions(self, asked: int) -> list[Facts]:

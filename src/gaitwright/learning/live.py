@@ -1,0 +1,127 @@
+"""Teaching by a person, in the middle of a mission or over a recording: say what is right, look, keep it.
+
+The one door for whoever talks with the person: a terminal, or a page.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from gaitwright.errors import WrongUse
+from gaitwright.knowledge.memory import Action
+from gaitwright.knowledge.rules import Event
+from gaitwright.knowledge.told import Told
+from gaitwright.learning.decision_point import DecisionPoint
+from gaitwright.learning.notes import notes_of
+from gaitwright.learning.skill_pupil import Choice, SkillPupil, Taken
+from gaitwright.skillbook.history import all_told
+from gaitwright.skillbook.writer import Ledger
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """A moment that the person could look at: when it was [s], and the skill in use."""
+
+    time: float
+    moment: DecisionPoint
+    skill: str
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """From when to when [s] something else is decided than before."""
+
+    begin: float
+    end: float
+    before: Action | None
+    after: Action | None
+
+
+@dataclass(frozen=True, slots=True)
+class Tried:
+    """What a lesson would do, tried on a copy of the pupil: nothing is learned until it is kept."""
+
+    told: Told
+    pupil: SkillPupil
+    taken: Taken
+    is_followed: bool
+    """Whether she then does what she was told."""
+    stretches: tuple[Stretch, ...]
+    """Where the rules decide differently over what was seen."""
+    broken: tuple[Told, ...]
+    """Earlier lessons that were followed and are not any more."""
+    mended: tuple[Told, ...]
+    """Earlier lessons that were not followed and are now."""
+
+
+@dataclass
+class LiveLessons:
+    """A person's lessons to the pupil of a book, each durable once it is kept."""
+
+    ledger: Ledger
+    pupil: SkillPupil
+    seen: list[Seen] = field(default_factory=list)
+
+    def tried(self, told: Told) -> Tried:
+        """What a lesson would do. Raises `WrongUse` where one of that name was kept before."""
+        if any(step.told and step.told.id == told.id for step in self.ledger.book.steps):
+            raise WrongUse(f"{told.id} was taught before: `forget` it first, or go on a little")
+        before, after = self.pupil, self.pupil.copied()
+        taken = after.hear(told)
+        moments = [seen.moment for seen in self.seen]
+        was, now = (pupil.choose_all(moments) for pupil in (before, after))
+        old, new = before.pupil.standing.right, after.pupil.standing.right
+        return Tried(
+            told,
+            after,
+            taken,
+            bool(new[-1]),
+            tuple(stretches(self.seen, was, now)),
+            tuple(before.told[k] for k in range(len(old)) if old[k] and not new[k]),
+            tuple(before.told[k] for k in range(len(old)) if new[k] and not old[k]),
+        )
+
+    def keep(self, tried: Tried) -> None:
+        """Learns it: lesson, rules and notes are in the book when this returns."""
+        self.ledger.tell(tried.told, tried.taken.events)
+        self.pupil = tried.pupil
+        self.settle()
+
+    def forget(self, name: str = "") -> tuple[str, tuple[Event, ...]]:
+        """Takes back what was told under a name, else the last that counts; its name and what that moved.
+
+        Raises `WrongUse` where there is none.
+        """
+        if not name and not self.pupil.told:
+            raise WrongUse("nothing was taught yet that could be taken back")
+        name = name or self.pupil.told[-1].id
+        after = self.pupil.copied()
+        events = after.forget(name)
+        self.ledger.forget(name, after.rulebook(), notes_of(after, self.heard), events)
+        self.pupil = after
+        return name, events
+
+    def settle(self) -> None:
+        """Puts the rules and the notes on the pupil into the book."""
+        self.ledger.settle(self.pupil.rulebook(), notes_of(self.pupil, self.heard))
+
+    @property
+    def heard(self) -> int:
+        """How many lessons the book holds, those forgotten included."""
+        return len(all_told(self.ledger.book.steps))
+
+
+def stretches(seen: Sequence[Seen], was: Sequence[Choice], now: Sequence[Choice]) -> list[Stretch]:
+    """Where two pupils decide differently, moments in a row taken together."""
+    found: list[Stretch] = []
+    open_ = False
+    for one, old, new in zip(seen, was, now, strict=True):
+        if old.action == new.action:
+            open_ = False
+            continue
+        last = found[-1] if found and open_ else None
+        if last is not None and (last.before, last.after) == (old.action, new.action):
+            found[-1] = Stretch(last.begin, one.time, last.before, last.after)
+        else:
+            found.append(Stretch(one.time, one.time, old.action, new.action))
+        open_ = True
+    return found
