@@ -92,8 +92,9 @@ def test_a_wider_screen_has_one_line_for_each_skill(
 
 def test_a_school_and_its_book_are_told_at_80_columns(capsys: pytest.CaptureFixture[str]):
     assert "turn-in-place" in shown(["teach", "--out", "a.skills", "--trips", "1"], capsys)
-    for words in ([], ["--rule", "trot"], ["--history", "trot"], ["--situation", "road=rough"]):
-        assert "trot" in shown(["explain", "a.skills", *words], capsys)
+    turn = "turn-in-place"
+    for words in ([], ["--rule", turn], ["--history", turn], ["--situation", "road=rough"]):
+        assert turn in shown(["explain", "a.skills", *words], capsys)
     assert "conflicts" in shown(["books", "merge", "a.skills", "a.skills", "--out", "b.skills"], capsys)
 
 

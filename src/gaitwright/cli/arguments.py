@@ -44,6 +44,8 @@ def add_mission(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--speed", type=positive, metavar="V", help=fitting)
     rules = "driver hybrid: the rules that choose the skills, as a school left them"
     parser.add_argument("--skillbook", metavar="FILE", help=rules)
+    own = "let the robot learn from its own mistakes on the way (a fall, slipping feet, no way made) into it"
+    parser.add_argument("--learn", action="store_true", help=own)
     add_run(parser, seconds=120.0)
 
 

@@ -1,12 +1,19 @@
 """`gaitwright mission`: take a robot to a goal."""
 
 from argparse import Namespace
+from dataclasses import replace
 
 from gaitwright.cli import trips
 from gaitwright.cli.book_files import rulebook_of
+from gaitwright.cli.console import remark
 from gaitwright.errors import WrongUse
+from gaitwright.learning.live import LiveLessons
+from gaitwright.learning.notes import pupil_of
+from gaitwright.learning.own_mistakes import lesson_of
 from gaitwright.model.robot import Robot
+from gaitwright.record.recording import Recording
 from gaitwright.signals import Mission
+from gaitwright.skillbook.writer import Ledger, open_for_learning
 from gaitwright.skills.chooser import DefaultChooser
 from gaitwright.skills.rule_chooser import RuleChooser
 from gaitwright.stages import Chooser
@@ -24,9 +31,32 @@ def run(args: Namespace) -> int:
     trips.check_inside("goal", points[-1], scene)
     if args.speed is not None:
         DefaultChooser(robot).gait_for(args.speed)  # refuses a speed beyond the robot's reach
-    chooser = chooser_of(robot, args)
-    setting = trips.set_up(robot, scene, chooser, args.distribution)
-    return trips.run(setting, Mission(points, args.speed, args.driver), args)
+    mission = Mission(points, args.speed, args.driver)
+    if not args.learn:
+        setting = trips.set_up(robot, scene, chooser_of(robot, args), args.distribution)
+        return trips.run(setting, mission, args)
+    if args.skillbook is None:
+        raise WrongUse(
+            "--learn: a robot learns into a book, so driver hybrid and --skillbook FILE go with it"
+        )
+    with open_for_learning(args.skillbook) as ledger:  # from the beginning: nobody else teaches it meanwhile
+        setting = trips.set_up(robot, scene, RuleChooser(robot, ledger.book.rulebook), args.distribution)
+        name = f"{scene.name} (seed {args.seed})"
+        return trips.run(setting, mission, args, after=lambda recording: learn(ledger, recording, name))
+
+
+def learn(ledger: Ledger, recording: Recording, name: str) -> None:
+    """What the robot's own mistakes teach it, told and put into the book."""
+    room = LiveLessons(ledger, pupil_of(ledger.book))
+    told = lesson_of(recording, room.pupil, name)
+    if told is None:
+        remark("nothing went wrong that the robot noticed: nothing was learned")
+        return
+    tried = room.tried(replace(told, id=room.free_name(told.id)))
+    room.keep(tried)
+    remark(f"{told.because}: {told.action.skill} would have been better, learned as {tried.told.id!r}")
+    for event in tried.taken.events:
+        remark(f"  {event.why}")
 
 
 def chooser_of(robot: Robot, args: Namespace) -> Chooser:

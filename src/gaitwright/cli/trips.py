@@ -3,7 +3,7 @@
 import json
 import math
 from argparse import Namespace
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
@@ -118,8 +118,10 @@ def run(
     mission: Mission,
     args: Namespace,
     push: Push | None = None,
+    after: Callable[[Recording], None] = lambda recording: None,
 ) -> int:
-    """Simulates, reports, leaves the files in `args.out`; returns the exit code."""
+    """Simulates, reports, leaves the files in `args.out`; returns the exit code. `after` gets what was
+    recorded."""
     check_mechanics(mission.driver, args)
     broken = [breakdown(setting.robot, *asked) for asked in getattr(args, "fault", [])]
     cold = args.plant == "armstrong" and not is_warm("integrators.advance")
@@ -155,7 +157,9 @@ def run(
     if not len(recording):
         raise KeyboardInterrupt
     wall = perf_counter() - began
-    return finish(setting, recording, args, wall, checks)
+    code = finish(setting, recording, args, wall, checks)
+    after(recording)
+    return code
 
 
 def warm_up(setting: Setting, plant: Plant, mission: Mission) -> None:

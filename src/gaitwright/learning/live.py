@@ -100,6 +100,14 @@ class LiveLessons:
         self.pupil = after
         return name, events
 
+    def free_name(self, name: str) -> str:
+        """A name for a lesson that none in the book has yet."""
+        taken = {told.id for told in all_told(self.ledger.book.steps)}
+        free, number = name, 2
+        while free in taken:
+            free, number = f"{name}, time {number}", number + 1
+        return free
+
     def settle(self) -> None:
         """Puts the rules and the notes on the pupil into the book."""
         self.ledger.settle(self.pupil.rulebook(), notes_of(self.pupil, self.heard))

@@ -24,7 +24,7 @@ from gaitwright.skills.situation import situation_of
 from gaitwright.skills.vocabulary import VOCABULARY
 from gaitwright.skills.wording import WORDING
 
-WEIGHT: dict[Given, float] = {"corrected": STEPPED_IN, "by analogy": 0.5}
+WEIGHT: dict[Given, float] = {"corrected": STEPPED_IN, "by itself": STEPPED_IN, "by analogy": 0.5}
 """How much a lesson counts by how it came (1): what was only concluded gives way to what is seen."""
 
 
