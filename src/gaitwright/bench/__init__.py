@@ -12,7 +12,7 @@ GROUPS = {
     "spine": ("walks", "ground", "pushes", "lp", "robots", "missions", "tick", "speed", "memory"),
     "skills": ("skills", "transitions", "terrain", "anyrobot", "cost"),
     "mechanics": ("dynamics", "sharing", "streaming", "armstrong"),
-    "rules": ("rules", "school", "teachers", "kills"),
+    "rules": ("rules", "school", "lessons", "teachers", "kills"),
     "outside": ("strangers", "fuzz", "faults"),
 }
 """Groups of claims, each claim the name of a module here, in the order in which they are measured."""

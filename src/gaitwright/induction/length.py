@@ -9,8 +9,9 @@ import numpy as np
 from gaitwright.induction.decision_list import NONE, first_that_holds
 from gaitwright.numerics.compiled import kernel
 
-NAMED = 1.0
-"""Bits of the name of a column that the teacher has named for that action."""
+NAMED, IN_A_PAIR, PAIR = 1.0, 4.0, 2.0
+"""Bits of the name of a column that the teacher has named for that action; where it compares the number with
+another one, which she did not say, more. A column is such a comparison from this price on."""
 BOUND, BOUND_MORE = 0.6, 1.0
 """Bits of a condition's first bound: so many per doubling of the cases, and so many more."""
 SECOND, SECOND_MORE = 1.0, 2.0
@@ -33,7 +34,9 @@ def bound_bits(cases):
 @kernel
 def name_bits(cases, action, column):
     """Bits that say which column a condition is about."""
-    free = NAMED if cases.named[action, column] else np.log2(len(cases.price)) + 1.0
+    free = np.log2(len(cases.price)) + 1.0
+    if cases.named[action, column]:
+        free = IN_A_PAIR if cases.price[column] >= PAIR else NAMED
     return free + cases.price[column]
 
 
