@@ -155,7 +155,7 @@ def test_what_is_left_open_is_taken_from_the_last_lesson_and_said(capsys):
     assert report["left_open"].startswith("What was left open matters: ")
     alike = figures(capsys, "--situation", "ground=flat", "speed=slow")
     assert alike["left_open"] == "That is so whatever heading may be."
-    assert "flat (as at lap 3)" in explained(capsys, "--situation", "speed=slow")
+    assert "as at lap 3 ground flat; heading forward" in explained(capsys, "--situation", "speed=slow")
 
 
 def test_a_value_above_the_leaves_is_filled_below_it(capsys):

@@ -8,7 +8,9 @@ from gaitwright.errors import BadFile, WrongUse, short
 from gaitwright.files import content_of, is_there
 from gaitwright.knowledge.json_form import MAX_BYTES, loads
 from gaitwright.knowledge.rules import Rulebook
+from gaitwright.knowledge.told import Told
 from gaitwright.skillbook.book import Skillbook
+from gaitwright.skillbook.history import all_told, forgotten
 from gaitwright.skillbook.schema import MAX_BYTES as BOOK_BYTES
 
 SQLITE = b"SQLite format 3"
@@ -20,6 +22,15 @@ def rulebook_of(path: str) -> Rulebook:
     if is_skillbook(path):
         return Skillbook.load(path).rulebook
     return loads(content_of(path, "rulebook", MAX_BYTES), short(path))
+
+
+def told_in(path: str) -> list[Told]:
+    """What a pupil was told in a skillbook and still counts; nothing in a file with rules alone."""
+    if not is_skillbook(path):
+        return []
+    steps = Skillbook.load(path).steps
+    gone = forgotten(steps)
+    return [told for told in all_told(steps) if told.id not in gone]
 
 
 def skillbook_of(path: str) -> Skillbook:

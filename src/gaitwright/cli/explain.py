@@ -7,7 +7,7 @@ from dataclasses import asdict
 from importlib import import_module
 from pathlib import Path
 
-from gaitwright.cli.book_files import rulebook_of
+from gaitwright.cli.book_files import rulebook_of, told_in
 from gaitwright.cli.console import (
     remark,
     show_heading,
@@ -30,10 +30,11 @@ from gaitwright.cli.explain_text import (
     verdict,
 )
 from gaitwright.cli.output import check_json, write_json
-from gaitwright.cli.situation_args import Asked, asked, said, whatever
+from gaitwright.cli.situation_args import RECORDED, SAID, Asked, asked, said, whatever
 from gaitwright.errors import WrongUse
 from gaitwright.knowledge.consult import Decision, consult
 from gaitwright.knowledge.explain import forest_text
+from gaitwright.knowledge.forest import Situation
 from gaitwright.knowledge.memory import Memory, remembered
 from gaitwright.knowledge.rules import Rulebook, status
 from gaitwright.screen import show
@@ -119,13 +120,22 @@ def situation_asked(rulebook: Rulebook, args: Namespace, figures: dict) -> Asked
     if args.recording:
         moment = import_module("gaitwright.cli.recorded_moment")  # only now: it knows MuJoCo
         figures["at_s"], facts = moment.recorded_facts(args.recording, args.at)
-    at = asked(rulebook, said(args.situation or (), rulebook.forest), facts)
+    at = asked(rulebook, said(args.situation or (), rulebook.forest), facts, taught_in(args.book, rulebook))
     if args.recording and not any((tree.source or tree.name) in facts for tree in rulebook.forest.trees):
         raise WrongUse(
             f"{args.recording} tells {', '.join(facts)}, and of these no tree reads one; "
             f"the trees are {', '.join(rulebook.forest.names)}"
         )
     return at
+
+
+def taught_in(path: str, rulebook: Rulebook) -> list[tuple[str, Situation]]:
+    """What a pupil was told in a skillbook, the last first: names of lessons, and the situations."""
+    told = told_in(path)
+    if not told:
+        return []
+    skills = import_module("gaitwright.skills.book_trees")
+    return [(one.id, skills.situation_told(rulebook, one)) for one in reversed(told)]
 
 
 def tell_decision(
@@ -175,11 +185,12 @@ def counterfactual_figures(change) -> dict:
 
 
 def tell_situation(at: Asked) -> None:
-    """The situation, and where what was not said comes from."""
-    pairs = [
-        (tree, str(value) if source == "said" else f"{value}   ({source})")
-        for (tree, value), source in zip(at.situation.items(), at.sources, strict=True)
-    ]
+    """The situation: what was said or recorded tree by tree, and the rest by the lesson it is taken from."""
+    told = [(*pair, source) for pair, source in zip(at.situation.items(), at.sources, strict=True)]
+    pairs = [(tree, str(value)) for tree, value, source in told if source in (SAID, RECORDED)]
+    for source in dict.fromkeys(source for *_, source in told if source not in (SAID, RECORDED)):
+        rest = "; ".join(f"{tree} {value}" for tree, value, here in told if here == source)
+        pairs.append((source, rest))
     show_pairs("the situation", pairs, to_stderr=False)
     show([""])
 

@@ -1,6 +1,7 @@
 """The situation that a person asks about: what was said, what a recording tells, and the rest as last
 taught."""
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice, product
@@ -14,7 +15,11 @@ from gaitwright.knowledge.memory import Fact
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.knowledge.trees import FeatureTree
 
+Lesson = tuple[str, Situation]
+"""What a lesson is called, and the situation in it."""
 SAID, RECORDED = "said", "recorded"
+ENOUGH, FEW = 5, 4
+"""From so many lessons on that are like what was asked, what is decided in them is told; so many decisions."""
 MOST = 64
 """So many ways to fill what was said in part are tried."""
 
@@ -28,6 +33,8 @@ class Asked:
     sources: tuple[str, ...]
     partly: tuple[tuple[str, str], ...] = ()
     """Trees of which only a value above the leaves was said, with that value."""
+    alike: tuple[tuple[str, int], ...] = ()
+    """What is decided in lessons in which all was so that was said, and how often, the commonest first."""
 
     @property
     def open(self) -> tuple[str, ...]:
@@ -52,12 +59,16 @@ def said(words: Sequence[str], forest: Forest) -> dict[str, str]:
     return values
 
 
-def asked(rulebook: Rulebook, values: Mapping[str, str], facts: Mapping[str, Fact]) -> Asked:
-    """A leaf for every tree: what was said comes first, then the facts, then the lessons, the last first.
+def asked(
+    rulebook: Rulebook, values: Mapping[str, str], facts: Mapping[str, Fact], taught: Sequence[Lesson] = ()
+) -> Asked:
+    """A leaf for every tree: what was said comes first, then the facts, then the lessons (`taught`, else
+    those that the rules hold), those first in which all was so that was said, and of these the last one of
+    the commonest decision: trees that belong together are taken from one lesson as far as any tells.
 
     Raises `WrongUse` for a value that does not exist, and where no lesson has one for a tree left open.
     """
-    lessons = last_lessons(rulebook)
+    lessons, alike = typical_first(rulebook, taught or last_lessons(rulebook), values)
     found = [_leaf(tree, values.get(tree.name), facts, lessons) for tree in rulebook.forest.trees]
     pairs = zip(rulebook.forest.trees, found, strict=True)
     missing = [f"{tree.name} ({', '.join(tree.leaves)})" for tree, leaf in pairs if leaf is None]
@@ -67,10 +78,10 @@ def asked(rulebook: Rulebook, values: Mapping[str, str], facts: Mapping[str, Fac
     partly = tuple(
         (tree, value) for tree, value in values.items() if _said_leaf(rulebook.forest[tree], value) is None
     )
-    return Asked(Situation(rulebook.forest.names, leaves), sources, partly)
+    return Asked(Situation(rulebook.forest.names, leaves), sources, partly, alike)
 
 
-def last_lessons(rulebook: Rulebook) -> list[tuple[str, Situation]]:
+def last_lessons(rulebook: Rulebook) -> list[Lesson]:
     """The situations of the lessons: those that moved something, the last first, then the others."""
     taught = {
         instance.id: instance.situation
@@ -83,8 +94,34 @@ def last_lessons(rulebook: Rulebook) -> list[tuple[str, Situation]]:
     return [(name, taught[name]) for name in dict.fromkeys([*moved, *reversed(taught)])]
 
 
+def typical_first(
+    rulebook: Rulebook, lessons: Sequence[Lesson], values: Mapping[str, str]
+) -> tuple[list[Lesson], tuple[tuple[str, int], ...]]:
+    """The lessons, those first that are like what was said, and of them those of the commonest decision; and
+    how often what is decided in these."""
+    alike = [lesson for lesson in lessons if is_like(rulebook.forest, lesson[1], values)] if values else []
+    decided = {name: consult(rulebook, situation).rule or "no rule" for name, situation in alike}
+    often = Counter(decided.values())
+    order = {name: -often[rule] for name, rule in decided.items()}
+    return sorted(lessons, key=lambda lesson: order.get(lesson[0], 1)), tuple(often.most_common())
+
+
+def is_like(forest: Forest, situation: Situation, values: Mapping[str, str]) -> bool:
+    """Whether a situation is as it was said to be."""
+    for name, value in values.items():
+        tree, here = forest[name], situation[name]
+        leaf = _said_leaf(tree, value)
+        if here is None or not (here == leaf or (leaf is None and tree.is_below(here, value))):
+            return False
+    return True
+
+
 def whatever(rulebook: Rulebook, at: Asked) -> str:
-    """Whether the trees left open make a difference, in a sentence; tried with all of their values."""
+    """Whether what was left open makes a difference, in a sentence: what is decided in lessons like that,
+    where there are some, else what could be, tried with all values of the trees left open."""
+    if sum(often for _, often in at.alike) >= ENOUGH:
+        counts = ", ".join(f"{rule} in {often}" for rule, often in at.alike[:FEW])
+        return f"Of {sum(often for _, often in at.alike)} lessons like that the rules decide for {counts}."
     names = [tree for tree in at.situation.trees if tree in at.open]
     trees = names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
     other = _decided_otherwise(rulebook, at)

@@ -9,7 +9,7 @@ from gaitwright.induction.cases import no_cases, table_of
 from gaitwright.induction.decision_list import Bound, Lines, RuleLine
 from gaitwright.induction.standing import standing_of
 from gaitwright.knowledge.told import Told
-from gaitwright.learning.skill_pupil import SkillPupil
+from gaitwright.learning.skill_pupil import SkillPupil, instance_of
 from gaitwright.skillbook.book import Skillbook
 from gaitwright.skillbook.history import all_told, forgotten
 from gaitwright.skillbook.pupil_notes import ColumnBound, ListedRule, PupilNotes, RuleList
@@ -55,6 +55,7 @@ def pupil_as_noted(book: Skillbook) -> tuple[SkillPupil, list[Told]]:
     for one in told[: notes.heard]:
         taught.note(one)
     taught.told = [one for one in told[: notes.heard] if one.id not in gone]
+    taught.instances = [instance_of(one) for one in taught.told]
     restore(taught, notes, book.name)
     return taught, told[notes.heard :]
 

@@ -56,13 +56,15 @@ class SkillPupil:
     told: list[Told] = field(default_factory=list)
     """What counts, in order."""
     scenes: dict[str, int] = field(default_factory=dict)
+    instances: list[Instance] = field(default_factory=list)
+    """What counts, in the situation as people speak of it: made once, since a book has many."""
 
     def __post_init__(self) -> None:
         self.pupil = Pupil(VOCABULARY, self.seed)
 
     def copied(self) -> "SkillPupil":
         """Another one who knows the same: to try out what a lesson would do."""
-        other = SkillPupil(self.seed, [*self.actions], [*self.told], {**self.scenes})
+        other = SkillPupil(self.seed, [*self.actions], [*self.told], {**self.scenes}, [*self.instances])
         other.pupil = deepcopy(self.pupil, {id(VOCABULARY): VOCABULARY})
         return other
 
@@ -89,6 +91,7 @@ class SkillPupil:
         before = self.stage()
         heard = self.pupil.hear(self.lesson_of(told))
         self.told.append(told)
+        self.instances.append(instance_of(told))
         if heard.before == heard.after:
             return Taken(heard, ())
         fire = np.append(before.fire, heard.verdict.rule)
@@ -103,7 +106,7 @@ class SkillPupil:
             raise WrongUse(f"no lesson {name!r} that counts; the last ones are: {last}")
         k, before = names.index(name), self.stage()
         self.pupil.forget(k)
-        del self.told[k]
+        del self.told[k], self.instances[k]
         before = replace(before, fire=np.delete(before.fire, k))
         return differences(before, self.stage(), name, VOCABULARY, WORDING)
 
@@ -132,8 +135,7 @@ class SkillPupil:
 
     def rulebook(self) -> Rulebook:
         """What was learned, as rules over feature trees."""
-        pupil, instances = self.pupil, [instance_of(told) for told in self.told]
-        taught = Lessons(instances, self.actions, [told.rule for told in self.told])
+        pupil, taught = self.pupil, Lessons(self.instances, self.actions, [told.rule for told in self.told])
         return expressed(pupil.lines, pupil.cases, pupil.standing, VOCABULARY, WORDING, taught)
 
 

@@ -6,8 +6,9 @@ from gaitwright.errors import WrongUse
 from gaitwright.knowledge.expressed import read_in
 from gaitwright.knowledge.forest import Situation
 from gaitwright.knowledge.rules import Rulebook
+from gaitwright.knowledge.told import Told
 from gaitwright.knowledge.widen import widened
-from gaitwright.skills.situation import FOREST
+from gaitwright.skills.situation import FOREST, situation_of
 from gaitwright.skills.vocabulary import VOCABULARY
 from gaitwright.skills.wording import NUMBERS
 
@@ -18,6 +19,12 @@ MEASURED = {column.name for column in VOCABULARY.columns}
 def in_trees_of(rulebook: Rulebook, now: Situation, raw: Mapping[str, float]) -> Situation:
     """The situation in a rulebook's own trees: those with bounds of its own are read from the numbers."""
     return now if rulebook.forest == FOREST else read_in(rulebook.forest, VOCABULARY, NUMBERS, now, raw)
+
+
+def situation_told(rulebook: Rulebook, told: Told) -> Situation:
+    """The situation of something told, in a rulebook's own trees."""
+    numbers = {name: fact for name, fact in told.facts.items() if not isinstance(fact, str)}
+    return in_trees_of(rulebook, situation_of(told.facts), numbers)
 
 
 def up_to_date(rulebook: Rulebook) -> Rulebook:
