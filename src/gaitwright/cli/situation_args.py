@@ -19,7 +19,7 @@ Lesson = tuple[str, Situation]
 """What a lesson is called, and the situation in it."""
 SAID, RECORDED = "said", "recorded"
 ENOUGH, FEW = 5, 4
-"""From so many lessons on that are like what was asked, what is decided in them is told; so many decisions."""
+"""From so many lessons on that are like what was asked, their decisions are told; so many of these."""
 MOST = 64
 """So many ways to fill what was said in part are tried."""
 
