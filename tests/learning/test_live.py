@@ -89,6 +89,17 @@ def test_her_last_word_wins_in_the_same_situation_and_it_says_what_breaks(lesson
     assert tried.pupil.choose(moment(possible=0.6, remaining=30.0)).action == TROT
 
 
+def test_how_fast_is_learned_from_the_speeds_that_were_shown(lessons):
+    for k, speed in enumerate((0.15, 0.3, 0.2)):
+        lessons.keep(
+            lessons.tried(told(f"ice, {k}", Action("walk", speed, speed), "grip", grip=0.2 + k / 20))
+        )
+    assert lessons.pupil.choose(moment(grip=0.22)).action == Action("walk", 0.15, 0.3)
+    assert Action("walk", 0.15, 0.3) in {rule.action for rule in lessons.ledger.book.rulebook.rules}
+    lessons.forget("ice, 1")
+    assert lessons.pupil.choose(moment(grip=0.22)).action == Action("walk", 0.15, 0.2)
+
+
 def test_nothing_can_be_taken_back_before_anything_was_said(path):
     with open_for_learning(path) as ledger, pytest.raises(WrongUse, match="nothing was taught"):
         LiveLessons(ledger, SkillPupil()).forget()

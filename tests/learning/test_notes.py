@@ -33,7 +33,7 @@ def put_away(tmp_path_factory):
 def test_she_is_the_same(put_away):
     pupil, book = put_away
     again = pupil_of(import_text(export_text(book)))
-    assert again.told == pupil.told and again.actions == pupil.actions and again.scenes == pupil.scenes
+    assert again.told == pupil.told and again.kinds == pupil.kinds and again.scenes == pupil.scenes
     for name in ("lines", "rivals", "draft", "age", "drafts", "since", "surprises", "drift", "seed"):
         assert getattr(again.pupil, name) == getattr(pupil.pupil, name)
     for mine, hers in zip(again.pupil.cases, pupil.pupil.cases, strict=True):

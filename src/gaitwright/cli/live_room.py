@@ -14,7 +14,7 @@ from gaitwright.knowledge.told import Told
 from gaitwright.learning.live import LiveLessons, Tried
 from gaitwright.learning.live_sources import Played, Running
 from gaitwright.learning.said_action import said_action
-from gaitwright.learning.skill_pupil import facts_of
+from gaitwright.learning.skill_pupil import facts_of, kind_of
 from gaitwright.model.robot import Robot
 from gaitwright.skills.book_trees import in_trees_of
 from gaitwright.skills.vocabulary import VOCABULARY
@@ -131,13 +131,13 @@ class Room:
 
     def name_of(self, action: Action) -> str:
         """What rules of an action were called so far, else its skill."""
-        names = [told.rule for told in self.lessons.pupil.told if told.action == action]
+        names = [told.rule for told in self.lessons.pupil.told if kind_of(told.action) == kind_of(action)]
         return names[-1] if names else action.skill
 
     def try_out(self, action: Action, name: str, about: str) -> None:
         seen = self.source.here()
         done = self.lessons.pupil.choose(seen.moment).action
-        given = "confirmed" if done == action else "corrected"
+        given = "confirmed" if done is not None and kind_of(done) == kind_of(action) else "corrected"
         told = Told(seen.moment.id, facts_of(seen.moment), name, action, "", about, self.source.name, given)
         self.tried = self.lessons.tried(told)
         tell_tried(self.tried, seen)

@@ -97,6 +97,8 @@ def spoken(action: Action) -> str:
     """An action in a few words."""
     if action.fastest <= 0.0:
         return action.skill
+    if action.slowest == action.fastest:
+        return f"{action.skill} at {action.fastest:g} m/s"
     return f"{action.skill} at {action.slowest:g} to {action.fastest:g} m/s"
 
 

@@ -71,7 +71,7 @@ def restore(taught: SkillPupil, notes: PupilNotes, source: str) -> None:
     numbers = np.array([(lesson.action, lesson.reason, lesson.scene) for lesson in lessons], np.int64)
     actions, reasons, scenes = np.ascontiguousarray(numbers.reshape(n, 3).T)
     table = table_of(rows, actions, reasons, empty)
-    named = np.zeros((len(taught.actions), len(VOCABULARY.columns)), np.bool_)
+    named = np.zeros((len(taught.kinds), len(VOCABULARY.columns)), np.bool_)
     named[: len(table.named)] = table.named
     for case, weight in notes.weights:
         table.weight[case] = weight

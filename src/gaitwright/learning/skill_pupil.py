@@ -51,8 +51,8 @@ class SkillPupil:
 
     seed: int = 0
     pupil: Pupil = field(init=False)
-    actions: list[Action] = field(default_factory=list)
-    """What a teacher has shown, each action once, in the order in which they came."""
+    kinds: list[Action] = field(default_factory=list)
+    """What a teacher has shown, each kind of action once, in the order in which they came (`kind_of`)."""
     told: list[Told] = field(default_factory=list)
     """What counts, in order."""
     scenes: dict[str, int] = field(default_factory=dict)
@@ -64,9 +64,22 @@ class SkillPupil:
 
     def copied(self) -> "SkillPupil":
         """Another one who knows the same: to try out what a lesson would do."""
-        other = SkillPupil(self.seed, [*self.actions], [*self.told], {**self.scenes}, [*self.instances])
+        other = SkillPupil(self.seed, [*self.kinds], [*self.told], {**self.scenes}, [*self.instances])
         other.pupil = deepcopy(self.pupil, {id(VOCABULARY): VOCABULARY})
         return other
+
+    @property
+    def actions(self) -> list[Action]:
+        """What was taught to do: where a teacher drove at one speed and another, from the slowest to the
+        fastest of these."""
+        return [self.as_fast_as_shown(kind) for kind in self.kinds]
+
+    def as_fast_as_shown(self, kind: Action) -> Action:
+        """A kind of action with the speeds that were shown of it."""
+        if kind.fastest > 0.0:
+            return kind
+        speeds = [told.action.fastest for told in self.told if kind_of(told.action) == kind]
+        return replace(kind, slowest=min(speeds, default=0.0), fastest=max(speeds, default=0.0))
 
     # --- deciding ----------------------------------------------------------------------------------
     def choose(self, moment: DecisionPoint) -> Choice:
@@ -78,8 +91,9 @@ class SkillPupil:
         if not self.told or not moments:
             return [Choice(None)] * len(moments)
         rows = np.array([VOCABULARY.row(facts_of(moment)) for moment in moments])
-        actions, _, sure = self.pupil.decide_all(rows.T)
-        return [Choice(self.actions[a], s) for a, s in zip(actions.tolist(), sure.tolist(), strict=True)]
+        places, _, sure = self.pupil.decide_all(rows.T)
+        done = {a: self.as_fast_as_shown(self.kinds[a]) for a in set(places.tolist())}
+        return [Choice(done[a], s) for a, s in zip(places.tolist(), sure.tolist(), strict=True)]
 
     # --- learning ----------------------------------------------------------------------------------
     def hear(self, told: Told) -> Taken:
@@ -112,14 +126,14 @@ class SkillPupil:
 
     def note(self, told: Told) -> None:
         """Gives a new action and a new scene their places."""
-        if told.action not in self.actions:
-            self.actions.append(told.action)
+        if kind_of(told.action) not in self.kinds:
+            self.kinds.append(kind_of(told.action))
         self.scenes.setdefault(told.scene, len(self.scenes))
 
     def lesson_of(self, told: Told) -> Lesson:
         """What was told, as numbers; its action and scene have their places."""
         reason = VOCABULARY.place_of(told.about) if told.about in VOCABULARY.names else NOBODY
-        row, action = VOCABULARY.row(told.facts), self.actions.index(told.action)
+        row, action = VOCABULARY.row(told.facts), self.kinds.index(kind_of(told.action))
         return Lesson(row, action, reason, self.scenes[told.scene], WEIGHT.get(told.given, 1.0))
 
     def aside(self) -> list[Told]:
@@ -137,6 +151,11 @@ class SkillPupil:
         """What was learned, as rules over feature trees."""
         pupil, taught = self.pupil, Lessons(self.instances, self.actions, [told.rule for told in self.told])
         return expressed(pupil.lines, pupil.cases, pupil.standing, VOCABULARY, WORDING, taught)
+
+
+def kind_of(action: Action) -> Action:
+    """What an action is, however fast: a single speed is one that was driven, and says nothing of others."""
+    return replace(action, slowest=0.0, fastest=0.0) if action.slowest == action.fastest else action
 
 
 def told_at(moment: DecisionPoint, shown: Shown, scene: str, given: Given = "corrected") -> Told:

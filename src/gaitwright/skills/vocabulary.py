@@ -47,4 +47,11 @@ FACTS = (
 )
 """The measured numbers (`situation.measured`) and what the robot has been doing."""
 
+FLAGS = {
+    "arrived": {1.0: "it had arrived", 0.0: "it were under way", -1.0: "there were nowhere to go"},
+    "turning": {1.0: "it were turning already", 0.0: "it were not turning yet"},
+    "familiar": {1.0: "it had been here before", 0.0: "it had never been here"},
+}
+"""Facts that are one of a few numbers, and how a sentence on what is not so speaks of each."""
+
 VOCABULARY = Vocabulary(FACTS)
