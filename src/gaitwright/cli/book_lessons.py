@@ -24,6 +24,8 @@ from gaitwright.skillbook.pupil_notes import PupilNotes
 from gaitwright.skillbook.writer import Ledger, open_for_learning
 
 Rows = list[tuple[str, str]]
+SHOWN = 3
+"""So many lessons are named on the screen; the figures have all."""
 
 
 def confirm(args: Namespace) -> None:
@@ -112,7 +114,8 @@ def forget_all(args: Namespace, book: Skillbook, pupil: SkillPupil, lessons: Seq
             moved = pupil.forget(told.id)
             ledger.forget(told.id, pupil.rulebook(), notes_on(pupil, ledger), moved)
             events += moved
-    rows = [("forgotten", ", ".join(told.id for told in lessons)), *changes(events)]
+    names = ", ".join(told.id for told in lessons[:SHOWN]) + (", …" if len(lessons) > SHOWN else "")
+    rows = [("forgotten", names), *changes(events)]
     tell(args, ledger.book, f"{path} forgets {what}", rows, forgotten=lessons, events=events)
 
 

@@ -1,1 +1,1 @@
-"""A teacher's trips → a rulebook: the critic, the apprentice that watches, and the school (§5.4.2, §6.4)."""
+"""A teacher's words → a rulebook: the school, the pupil of skills, and books of what she was told (§5.4.2, §6.4)."""

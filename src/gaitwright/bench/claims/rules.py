@@ -12,7 +12,8 @@ NOTE = (
     "CLIPS gets the rules as defrules with the order as salience and decides by a function of its own "
     "(reset, assert, run 1), the quickest of the ways that we know; it would keep facts between decisions, "
     "and join several of them, which is not needed here. Counterfactuals: the change is made value by value "
-    "and decided by plain consultation."
+    "and decided by plain consultation. Explanations are of a book that a pupil of skills learned from moments of "
+    "trips without physics, with its whole history."
 )
 
 
