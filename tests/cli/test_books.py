@@ -6,32 +6,28 @@ from pathlib import Path
 
 import pytest
 
-from gaitwright.cli import main
-from gaitwright.knowledge.forest import Forest
+from gaitwright.cli import book_lessons, main
+from gaitwright.errors import BadFile
 from gaitwright.knowledge.json_form import dumps
-from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.modifier import Lesson
-from gaitwright.knowledge.trees import tree
-from gaitwright.skillbook import Skillbook, content_hash, export_text
-from skillbook.schooling import corrected, taught_skillbook
+from gaitwright.learning.notes import pupil_of, relearned
+from gaitwright.skillbook import Skillbook, content_hash, export_text, import_text, open_for_learning
+from skillbook.schooling import begun, lesson, taught_skillbook, tell
 
-FOREST = Forest((tree("ground", ("flat", "grass", "stairs")), tree("light", ("day", "night"))))
-
-
-def lesson(rule: str, ground: str, name: str) -> Lesson:
-    situation = FOREST.situation({"ground": ground, "light": "day"})
-    return Lesson("omission", rule, situation, name, action=Action(rule))
+GRASS = {"slope": 1.0, "possible": 0.5, "sway": 0.3}
+STEPS = {"slope": 15.0, "possible": 0.5, "sway": 0.1}
+OLD = Path(__file__).parents[1] / "skillbook" / "version_1.txt"
 
 
 @pytest.fixture(autouse=True)
 def books(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[Skillbook, Skillbook]:
     """Two books that went apart, in an empty folder: both teach what to do on grass, and not the same."""
     monkeypatch.chdir(tmp_path)
-    base = Skillbook.new(FOREST, "go2", "base")
+    base = begun()
     base.save("base.skills")
-    ours = corrected(base.forked("a"), lesson("trot", "grass", "mine"))
-    theirs = corrected(base.forked("b"), lesson("walk", "grass", "yours"))
-    theirs = corrected(theirs, lesson("climb", "stairs", "steps"))
+    a, b = base.forked("a"), base.forked("b")
+    ours = tell(a, pupil_of(a), lesson("mine", GRASS, "trot"))
+    steps = [lesson(f"steps {k}", STEPS | {"slope": 15.0 + k}, "climb", "slope") for k in range(6)]
+    theirs = tell(b, pupil_of(b), lesson("yours", GRASS, "walk"), *steps)
     ours.save("a.skills")
     theirs.save("b.skills")
     return ours, theirs
@@ -45,12 +41,12 @@ def test_a_merge_tells_each_conflict_and_what_to_do(capsys):
     before = files()
     assert main(["books", "merge", "a.skills", "b.skills", "--out", "both.skills"]) == 0
     told = " ".join(capsys.readouterr().out.split())
-    assert "mine of ours teaches trot and yours of b walk: ours stays." in told
+    assert "mine of a (ours) teaches trot and yours of b walk: ours stays." in told
     assert "ours a.skills, called a, of go2: 1 rule from 1 lesson" in told
     assert "new rules climb" in told and "gaitwright books merge b.skills a.skills --out NEW" in told
     book = Skillbook.load("both.skills")
     assert book.name == "both" and {rule.name for rule in book.rulebook.rules} == {"trot", "climb"}
-    assert book.replayed() == book.rulebook
+    assert relearned(book).rules == book.rulebook.rules
     assert {**before, "both.skills": Path("both.skills").read_bytes()} == files()
 
 
@@ -83,17 +79,86 @@ def test_a_book_goes_to_text_and_back(capsys):
 
 def test_a_text_changed_by_hand_is_taken_with_a_word(books, capsys):
     text = export_text(books[0])
-    for name, told in (("a", "make these rules"), ("quiet", "make other rules")):
+    for name, told in (("a", "heard again, make these rules"), ("quiet", "heard again, make other rules")):
         Path("c.txt").write_text(text if name == "a" else text.replace('"quiet":0', '"quiet":3', 1))
         assert main(["books", "import", "c.txt", "--out", f"{name}-again.skills"]) == 0
         assert told in capsys.readouterr().out
 
 
-def test_rules_as_json_become_a_book_that_can_be_merged(books):
+def test_rules_as_json_and_older_lessons_are_taken_as_they_stand(books, capsys):
     Path("garden.json").write_bytes(dumps(books[1].rulebook))
     assert main(["books", "import", "garden.json", "--out", "garden.skills"]) == 0
+    assert "there are no lessons in it: its rules are taken" in " ".join(capsys.readouterr().out.split())
     assert Skillbook.load("garden.skills").rulebook == books[1].rulebook
-    assert main(["books", "merge", "a.skills", "garden.skills", "--out", "both.skills"]) == 0
+    assert main(["books", "merge", "a.skills", "garden.skills", "--out", "both.skills"]) == 2
+    assert "the rules of garden rest on no lessons with measurements" in capsys.readouterr().err
+    assert main(["books", "import", str(OLD), "--out", "old.skills"]) == 0
+    told = " ".join(capsys.readouterr().out.split())
+    assert "its lessons are of an older kind, which nobody hears any more" in told
+
+
+# --- lessons taken in and back ---------------------------------------------------------------------
+def test_what_is_confirmed_drives_and_is_taken_back_in_one(books, capsys):
+    before = Skillbook.load("b.skills")
+    assert main(["books", "confirm", "b.skills", "descend"]) == 0
+    told = " ".join(capsys.readouterr().out.split())
+    assert "told 6 lessons, by analogy" in told and "decided there now descend 6" in told
+    assert "a new rule: descend" in told and "gaitwright books undo b.skills" in told
+    after = Skillbook.load("b.skills")
+    assert "descend" in [rule.name for rule in after.rulebook.rules]
+    assert len(after.steps) == len(before.steps) + 6 and relearned(after).rules == after.rulebook.rules
+    assert main(["books", "undo", "b.skills", "--json", "-"]) == 0
+    report = json.loads(capsys.readouterr().out)
+    assert len(report["forgotten"]) == 6 and "the rule descend is gone" in report["changed"]
+    undone = Skillbook.load("b.skills")
+    assert pupil_of(undone).told == pupil_of(before).told and "descend" not in report["rules"]
+    assert main(["books", "confirm", "b.skills", "descend"]) == 0  # and again, under other names
+    assert "descend" in [rule.name for rule in Skillbook.load("b.skills").rulebook.rules]
+
+
+def test_the_last_lesson_and_any_other_are_forgotten_by_name(books, capsys):
+    assert main(["books", "undo", "b.skills", "--json", "-"]) == 0
+    assert json.loads(capsys.readouterr().out)["forgotten"] == ["steps 5"]
+    assert main(["books", "forget", "b.skills", "yours"]) == 0
+    told = " ".join(capsys.readouterr().out.split())
+    assert "b.skills forgets yours" in told and "the rule walk is gone" in told
+    book = Skillbook.load("b.skills")
+    assert [told.id for told in pupil_of(book).told] == [f"steps {k}" for k in range(5)]
+    assert {rule.name for rule in book.rulebook.rules} == {"climb"}
+    for _ in range(5):
+        assert main(["books", "undo", "b.skills"]) == 0
+    capsys.readouterr()
+    assert main(["books", "undo", "b.skills"]) == 2
+    assert "counts any more: there is nothing to undo" in capsys.readouterr().err
+
+
+def test_a_book_in_use_is_left_alone(capsys):
+    with open_for_learning("b.skills") as other:
+        for words in (
+            ["confirm", "b.skills", "descend"],
+            ["undo", "b.skills"],
+            ["forget", "b.skills", "yours"],
+        ):
+            assert main(["books", *words]) == 3
+            assert "in use by another process" in capsys.readouterr().err
+        assert Skillbook.load("b.skills") == other.book
+
+
+def test_a_book_that_was_changed_meanwhile_is_left_alone(books):
+    book = Skillbook.load("b.skills")
+    with book_lessons.opened("b.skills", book) as ledger:
+        ledger.tell(lesson("new", GRASS, "stop"))
+    with pytest.raises(BadFile, match="was changed by another process"):
+        book_lessons.opened("b.skills", book)
+    book_lessons.opened("b.skills", Skillbook.load("b.skills")).close()  # and it is free again
+
+
+def test_older_books_have_nothing_to_take_back(capsys):
+    import_text(OLD.read_text(encoding="utf-8")).save("old.skills")
+    before = Path("old.skills").read_bytes()
+    assert main(["books", "undo", "old.skills"]) == 2
+    assert "gaitwright teach --out old.skills" in " ".join(capsys.readouterr().err.split())
+    assert Path("old.skills").read_bytes() == before
 
 
 MERGE = ("books", "merge", "a.skills")
@@ -102,7 +167,7 @@ WRONG = [
     (
         ("books", "mrge", "a.skills"),
         2,
-        "no task of books 'mrge'; there is: merge, export, import; did you mean",
+        "no task of books 'mrge'; there is: merge, export, import, confirm, undo, forget; did you mean",
     ),
     (MERGE, 2, "books merge takes 2: OURS THEIRS; got a.skills"),
     (("books", "export", "a.skills", "b.skills"), 2, "books export takes 1: BOOK; got a.skills b.skills"),
@@ -126,6 +191,16 @@ WRONG = [
         3,
         "no file none.txt: what `gaitwright books export`",
     ),
+    (("books", "confirm", "b.skills"), 2, "books confirm takes 2: BOOK SKILL; got b.skills"),
+    (("books", "confirm", "b.skills", "gallop"), 2, "for 'gallop': proposed are walk-backward, descend"),
+    (
+        ("books", "undo", "b.skills", "--out", "c.skills"),
+        2,
+        "books undo changes BOOK itself: leave --out out",
+    ),
+    (("books", "forget", "b.skills", "mine"), 2, "no lesson 'mine' that counts"),
+    (("books", "forget", "c.skills", "mine"), 3, "no file c.skills"),
+    (("books", "undo", "base.skills"), 2, "holds no lessons that can be told or taken back"),
     (("books", "import", "bad.json", "--out", "d.skills"), 3, "bad.json is not JSON"),
 ]
 

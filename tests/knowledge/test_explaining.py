@@ -2,55 +2,25 @@
 change."""
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from hand_made import GARDEN, at, book_of, garden, rule_of
 from random_books import random_book, random_forest, random_situation
 
 from gaitwright.errors import WrongUse
-from gaitwright.knowledge.analogy import confirm, mirrored
+from gaitwright.knowledge.audit import audit
 from gaitwright.knowledge.consult import consult
-from gaitwright.knowledge.correction import teach
 from gaitwright.knowledge.counterfactual import counterfactual
 from gaitwright.knowledge.explain import forest_text, history, why, why_not
-from gaitwright.knowledge.forest import Forest
 from gaitwright.knowledge.json_form import dumps, loads
-from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.modifier import Lesson, audit, learn
-from gaitwright.knowledge.rules import Marks, Rulebook, status
-from gaitwright.knowledge.trees import interval_tree, tree
-
-FOREST = Forest(
-    (
-        tree("ground", {"firm": ("flat", "gravel"), "slope": ("uphill", "downhill")}, "the ground is"),
-        interval_tree("speed", "m/s", (1.0, 2.0), {"calm": ("slow", "medium"), "fast": ()}, "the speed is"),
-        tree("heading", ("forward", "backward")),
-    )
-)
-
-
-def at(ground="flat", speed="slow", heading="forward"):
-    return FOREST.situation({"ground": ground, "speed": speed, "heading": heading})
+from gaitwright.knowledge.rules import Preference, Rulebook, status
 
 
 @pytest.fixture
 def book():
-    """Trot on the flat, run when fast, climb uphill."""
-    book = Rulebook(FOREST)
-    for k, (rule, situation, blame) in enumerate(
-        [
-            ("trot", at(), ""),
-            ("run", at(speed="fast"), "speed"),
-            ("climb", at("uphill"), "ground"),
-            ("run", at(speed="slow"), ""),
-        ]
-    ):
-        kind = "commission" if k == 3 else "omission"
-        lesson = Lesson(kind, rule, situation, f"lap {k}", blame=blame, action=Action(rule))
-        learned = learn(book, lesson) if k == 3 else teach(book, lesson)
-        assert learned.trouble is None
-        book = learned.rulebook
-    return book
+    return garden()
 
 
 def test_why_names_the_conditions_the_nearest_others_and_what_nobody_has_seen(book):
@@ -62,12 +32,12 @@ def test_why_names_the_conditions_the_nearest_others_and_what_nobody_has_seen(bo
 
 
 def test_why_tells_of_rules_that_come_after():
-    book = Rulebook(FOREST)
-    for rule in ("walk", "rest"):
-        book = learn(book, Lesson("omission", rule, at(), action=Action(rule))).rulebook
+    book = book_of(GARDEN, {"walk": {}, "rest": {}})
     told = why(book, consult(book, at()))
     assert told == "walk, because no lesson speaks against it; rest could fire too, but comes after it."
     assert why_not(book, "rest", at()) == "rest could fire, but walk comes before it."
+    wished = replace(book, preferences=(Preference("walk", "rest", at(), "lap 7"),))
+    assert why_not(wished, "rest", at()) == "rest could fire, but walk comes before it, as lap 7 taught."
 
 
 def test_why_not_names_the_tree_and_the_lesson_behind_it(book):
@@ -75,14 +45,14 @@ def test_why_not_names_the_tree_and_the_lesson_behind_it(book):
     assert why_not(book, "trot", at()).startswith("trot does fire: trot, because")
     with pytest.raises(WrongUse, match="no rule 'rum'"):
         why_not(book, "rum", at())
-    nothing = learn(book, Lesson("commission", "hop", at(), action=Action("hop"))).rulebook
+    nothing = Rulebook(GARDEN, (*book.rules, rule_of(GARDEN, "hop", right={}, wrong={"lap 4": at()})))
     assert "nobody has seen it right" in why_not(nothing, "hop", at())
 
 
 def test_history_tells_status_and_every_move(book):
     head, *moves = history(book, "run")
     assert head == "run is a rule shell: 1 right and 2 wrong situations, 0 lessons since a mark moved"
-    assert moves[0].startswith("lap 1: run is new")
+    assert moves[0] == "lap 1: run is new"
     assert moves[-1] == "lap 3: the upper mark in speed went from any to fast: run was wrong at speed slow"
 
 
@@ -152,46 +122,16 @@ def test_counterfactuals_are_true_and_none_is_smaller(seed):
             assert len(found.changes) == min(fits)[0]
 
 
-BACKWARD = {"heading": {"forward": "backward", "backward": "forward"}}
-
-
-def to_walk_backward(action):
-    return Action(f"{action.skill} backward", -action.fastest, -action.slowest)
-
-
-def test_a_rule_is_proposed_by_analogy_and_fires_once_it_is_confirmed(book):
-    learned = learn(book, Lesson("commission", "trot", at(heading="backward")))
-    proposed = mirrored(learned.rulebook, "trot", "trot backward", to_walk_backward, BACKWARD)
-    rule = proposed.rulebook["trot backward"]
-    assert rule.action.skill == "trot backward" and status(rule) == "proposed"
-    assert rule.marks_in("heading") == Marks("heading", "backward", "backward")
-    assert rule.marks_in("ground") == book["trot"].marks_in("ground")
-    assert "trot backward" not in consult(proposed.rulebook, at(heading="backward")).conflict
-    assert "only proposed" in why_not(proposed.rulebook, "trot backward", at(heading="backward"))
-    confirmed = confirm(proposed.rulebook, "trot backward", "lap 9").rulebook
-    assert "trot backward" in consult(confirmed, at(heading="backward")).conflict
-    assert loads(dumps(proposed.rulebook)) == proposed.rulebook and not audit(confirmed)
-    with pytest.raises(WrongUse, match="nothing to confirm"):
-        confirm(confirmed, "trot backward", "lap 10")
-
-
-def test_what_is_seen_overrules_an_analogy(book):
-    book = mirrored(book, "trot", "trot backward", to_walk_backward, BACKWARD).rulebook
-    seen = learn(book, Lesson("positive", "trot backward", at("gravel", heading="backward")))
-    assert seen.rulebook["trot backward"].may_fire
-    against = learn(seen.rulebook, Lesson("commission", "trot backward", at(heading="backward")))
-    assert against.trouble is None and not audit(against.rulebook)
-    rule = against.rulebook["trot backward"]
-    assert all(instance.seen for instance in (*rule.positives, *rule.negatives))
-    assert any("by analogy gave way" in event.why for event in against.events)
-
-
-def test_an_analogy_that_contradicts_itself_is_no_rule(book):
-    book = learn(book, Lesson("commission", "trot", at(heading="backward"))).rulebook
-    both = {"heading": {"backward": "forward"}}
-    learned = mirrored(book, "trot", "trot too", to_walk_backward, both)
-    assert learned.rulebook == book and learned.trouble is not None
-    with pytest.raises(WrongUse, match="no leaf of heading 'sideways'"):
-        mirrored(book, "trot", "trot too", to_walk_backward, {"heading": {"forward": "sideways"}})
-    with pytest.raises(WrongUse, match="already"):
-        mirrored(book, "trot", "run", to_walk_backward, BACKWARD)
+def test_a_rule_that_is_only_proposed_does_not_fire_and_says_so(book):
+    """Books of older versions hold such rules."""
+    back = rule_of(GARDEN, "trot backward", {"heading": "backward"})
+    seen = tuple(replace(instance, kind="analogy for") for instance in back.positives)
+    back = replace(back, positives=seen, proposed=True)
+    proposed = replace(book, rules=(back, *book.rules))
+    assert status(back) == "proposed" and not audit(proposed)
+    here = at(heading="backward")
+    assert "trot backward" not in consult(proposed, here).conflict
+    assert "only proposed" in why_not(proposed, "trot backward", here)
+    assert loads(dumps(proposed)) == proposed
+    confirmed = replace(book, rules=(replace(back, proposed=False), *book.rules))
+    assert consult(confirmed, here).rule == "trot backward"

@@ -12,7 +12,7 @@ from gaitwright.errors import WrongUse
 from gaitwright.knowledge.forest import Forest, replace_value
 from gaitwright.knowledge.memory import Action, applied, remembered
 from gaitwright.knowledge.tree_checks import MAX_DEPTH
-from gaitwright.knowledge.trees import FeatureTree, interval_tree, nest, regrouped, tree
+from gaitwright.knowledge.trees import FeatureTree, interval_tree, tree
 
 TERRAIN = tree("terrain", {"even": ("flat", "slippery"), "slope": ("uphill", "downhill"), "stairs": ()})
 SPEED = interval_tree("speed", "m/s", (0.5, 1.0, 2.0), ("slow", "medium", "fast", "very fast"))
@@ -32,7 +32,6 @@ def test_values_stand_in_order_and_know_what_is_above_and_below():
     assert parent(TERRAIN, "slope") == "any" and parent(TERRAIN, "any") is None
     assert children(TERRAIN, "any") == ("even", "slope", "stairs")
     assert TERRAIN.leaves_below("slope") == ("uphill", "downhill")
-    assert TERRAIN.child_towards("any", "downhill") == "slope"
     assert TERRAIN.steps("flat", "uphill") == 4 and TERRAIN.steps("flat", "flat") == 0
 
 
@@ -50,16 +49,10 @@ def test_least_upper_bound_is_one(seed):
 
 
 @given(seeds)
-def test_below_is_the_way_down_and_a_child_stands_between(seed):
+def test_below_is_the_way_down(seed):
     grown, (a, b, _) = drawn(seed)
     assert grown.is_below(a, b) == is_below(grown, a, b)
     assert grown.is_below(a, b) == (set(grown.leaves_below(a)) <= set(grown.leaves_below(b)))
-    if a != b and is_below(grown, a, b):
-        child = grown.child_towards(b, a)
-        assert parent(grown, child) == b and is_below(grown, a, child)
-    else:
-        with pytest.raises(WrongUse, match="no way leads down"):
-            grown.child_towards(b, a)
 
 
 @given(seeds)
@@ -69,23 +62,6 @@ def test_values_below_one_value_exclude_each_other_and_leave_nothing_out(seed):
         parts = children(grown, value)
         below = [leaf for part in parts for leaf in grown.leaves_below(part)]
         assert not parts or sorted(below) == sorted(grown.leaves_below(value))
-
-
-@given(seeds)
-def test_a_regrouped_tree_has_the_same_leaves_and_the_groups_asked_for(seed):
-    rng = np.random.default_rng(seed)
-    grown = random_tree(rng, "t", 8)
-    wanted = int(rng.integers(1, 1 << len(grown.leaves)))
-    kept = {bits: value for value, bits in zip(grown.values, grown.sets, strict=True) if nest([bits, wanted])}
-    again = regrouped(grown, {wanted: "wanted"} | kept)
-    members = {leaf for k, leaf in enumerate(grown.leaves) if wanted >> k & 1}
-    assert sorted(again.leaves) == sorted(grown.leaves)
-    for bits, value in ({wanted: "wanted"} | kept).items():
-        assert set(again.leaves_below(value)) == {
-            leaf for k, leaf in enumerate(grown.leaves) if bits >> k & 1
-        }
-    assert members in [set(again.leaves_below(value)) for value in again.values]
-    assert regrouped(grown, dict(zip(grown.sets, grown.values, strict=True))) == grown
 
 
 @given(st.lists(st.floats(-1e6, 1e6), min_size=1, max_size=8, unique=True), st.floats(allow_nan=False))

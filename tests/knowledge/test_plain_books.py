@@ -1,31 +1,59 @@
 """A rulebook survives plain data; what is no rulebook is refused with a sentence."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from histories import run_histories
+from hand_made import rule_of
 from random_books import random_forest, random_situation
 
 from gaitwright.errors import BadFile
-from gaitwright.knowledge.correction import teach
+from gaitwright.knowledge.audit import audit
+from gaitwright.knowledge.forest import Forest, replace_value
 from gaitwright.knowledge.json_form import dumps, from_plain, loads, to_plain
 from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.modifier import Lesson
-from gaitwright.knowledge.rules import Rulebook
+from gaitwright.knowledge.rules import Event, Preference, Rule, Rulebook
+from gaitwright.knowledge.trees import ROOT
 
 
 def taught_book(seed: int) -> Rulebook:
-    """A book of three rules after some corrections, those that contradict each other left out."""
+    """A book of three rules, of all that plain data has to hold."""
     rng = np.random.default_rng(seed)
-    book = Rulebook(random_forest(rng, 4))
-    for k in range(12):
-        rule = f"rule {k % 3}"
-        action = Action(rule, 0.1, 1.0, "there", (("at", "B"), ("height", 0.3)), ("at",), (("size", 2.0),))
-        raw = {"friction": float(rng.random()), "ground": "grass"}
-        situation = random_situation(rng, book.forest)
-        book = teach(book, Lesson("omission", rule, situation, raw=raw, action=action)).rulebook
-    return book
+    forest = random_forest(rng, 4)
+    rules = tuple(full_rule(rng, forest, f"rule {k}") for k in range(3))
+    wish = Preference("rule 0", "rule 2", random_situation(rng, forest), "lap 3")
+    event = Event("lap 3", "rule 0", "a", "upper", "any", "a0", "rule 0 was wrong at a1")
+    return Rulebook(forest, rules, (wish,), (event,), 12)
+
+
+def full_rule(rng: np.random.Generator, forest: Forest, name: str) -> Rule:
+    """A rule that was right once and wrong a few times, in situations of which one tree knows nothing."""
+    action = Action(name, 0.1, 1.0, "there", (("at", "B"), ("height", 0.3)), ("at",), (("size", 2.0),))
+    first = forest.trees[0]
+    upper = {first.name: first.values[1]}
+    off = [leaf for leaf in first.leaves if not first.is_below(leaf, first.values[1])]
+    here = random_situation(rng, forest)
+    wrong = {f"{leaf}, wrong": replace_value(forest, here, first.name, leaf) for leaf in off}
+    rule = rule_of(forest, name, upper, None, wrong, action)
+    raw = {"friction": float(rng.random()), "ground": "grass"}
+    seen = tuple(replace(instance, raw=raw, note="it\nslipped") for instance in rule.positives)
+    return replace(rule, positives=seen, quiet=int(rng.integers(9)))
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_books_made_by_hand_are_sound(seed):
+    assert not audit(taught_book(seed))
+
+
+def test_what_learning_could_not_have_made_is_named():
+    book = taught_book(3)
+    rule, *others = book.rules
+    marks = replace(rule.marks[0], upper=rule.marks[0].lower, lower=ROOT)
+    upside = replace(book, rules=(replace(rule, marks=(marks, *rule.marks[1:])), *others))
+    assert any("the lower mark 'any' is not below the upper" in fault for fault in audit(upside))
+    turned = replace(book, rules=book.rules[::-1])
+    assert audit(turned) == ("rule 0 should come before rule 2, as lap 3 taught",)
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -98,7 +126,3 @@ def test_what_is_not_json_is_refused():
     for content in (b"", b"{", b"[" * 100_000, b"\xff", b"null", b"3"):
         with pytest.raises(BadFile, match=r"book\.json"):
             loads(content, "book.json")
-
-
-def test_histories_are_the_same_for_the_same_seed():
-    assert run_histories(5, 10, 5) == run_histories(5, 10, 5)

@@ -10,9 +10,9 @@ import pytest
 
 from gaitwright.cli import main
 from gaitwright.errors import WrongUse
+from gaitwright.knowledge.audit import audit
 from gaitwright.knowledge.consult import consult
 from gaitwright.knowledge.forest import Forest
-from gaitwright.knowledge.modifier import audit
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.knowledge.trees import interval_tree, tree
 from gaitwright.knowledge.widen import widened

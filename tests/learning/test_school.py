@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 
 from gaitwright.ground.scene import load_scene
-from gaitwright.knowledge.modifier import audit
+from gaitwright.knowledge.audit import audit
 from gaitwright.learning.exam import ASIDE, examined, faults, held_out, rights, trial, variants
 from gaitwright.learning.school import BEFORE_DRIVING, attend, trip_of
 from gaitwright.learning.skill_pupil import SkillPupil

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from gaitwright.description.load import load_robot
+from gaitwright.knowledge.audit import audit
 from gaitwright.knowledge.compiled import compile_book, decide
 from gaitwright.knowledge.expressed import number_columns, shown
 from gaitwright.knowledge.json_form import dumps, loads
-from gaitwright.knowledge.modifier import audit
 from gaitwright.knowledge.rules import Instance
 from gaitwright.learning.exam import held_out
 from gaitwright.learning.school import attend

@@ -6,22 +6,21 @@ import matplotlib.image
 import numpy as np
 import pytest
 
-from gaitwright.bench.evidence.random_schools import RandomSchool
+from gaitwright.bench.evidence.random_rulebooks import RandomRulebook
 from gaitwright.errors import WrongUse
 from gaitwright.knowledge.consult import consult
 from gaitwright.knowledge.forest import Forest
-from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.modifier import Lesson, learn
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.knowledge.trees import tree
 from gaitwright.pictures.forest import bands, box_width, forest_picture, leaf_span, two_lines
 from gaitwright.pictures.rule_trees import GAP, LINE, layout, lines_below, shortened
+from knowledge.hand_made import rule_of
 
-SCHOOL = RandomSchool(3, rules=5, trees=6)
+DRAWN = RandomRulebook(3, rules=5, trees=6)
 
 
 def test_a_whole_book_and_the_trees_of_one_rule_are_drawn(tmp_path):
-    book, situation = SCHOOL.truth, SCHOOL.held_out(0, 1)[0]
+    book, situation = DRAWN.book, DRAWN.asked(0, 1)[0]
     decision = consult(book, situation)
     whole = matplotlib.image.imread(forest_picture(book, tmp_path / "book.png"))
     one = matplotlib.image.imread(forest_picture(book, tmp_path / "rule.png", str(decision.rule), decision))
@@ -35,7 +34,7 @@ def test_the_situation_and_the_marks_are_seen(tmp_path):
     """The blue of a situation and the red of marks are there only where these are."""
     forest = Forest((tree("ground", ("flat", "rough")), tree("load", ("light", "heavy"))))
     at = forest.situation({"ground": "flat", "load": "light"})
-    book = learn(Rulebook(forest), Lesson("omission", "trot", at, action=Action("trot"))).rulebook
+    book = Rulebook(forest, (rule_of(forest, "trot", right={"lap 1": at}),))
     blue, red = (0x19, 0x71, 0xC2), (0xC2, 0x25, 0x5C)
     plain = pixels(forest_picture(book, tmp_path / "a.png"))
     assert blue not in plain and red not in plain
@@ -50,9 +49,9 @@ def pixels(path) -> set[tuple[int, ...]]:
 
 def test_what_cannot_be_drawn_is_said(tmp_path):
     with pytest.raises(WrongUse, match="no rules yet"):
-        forest_picture(Rulebook(SCHOOL.forest), tmp_path / "none.png")
+        forest_picture(Rulebook(DRAWN.forest), tmp_path / "none.png")
     with pytest.raises(WrongUse, match="no rule 'skil 1'"):
-        forest_picture(SCHOOL.truth, tmp_path / "none.png", "skil 1")
+        forest_picture(DRAWN.book, tmp_path / "none.png", "skil 1")
     assert not list(tmp_path.iterdir())
 
 
@@ -66,7 +65,7 @@ def test_trees_that_do_not_fit_side_by_side_come_below():
 
 
 def test_marks_cover_neighbours():
-    for grown in SCHOOL.forest.trees:
+    for grown in DRAWN.forest.trees:
         for value in grown.values:
             first, end = leaf_span(grown, value)
             assert grown.leaves[first:end] == grown.leaves_below(value)
@@ -76,7 +75,7 @@ def test_marks_cover_neighbours():
 
 
 def test_no_tree_stands_on_another():
-    for column, height in layout(SCHOOL.forest.trees):
+    for column, height in layout(DRAWN.forest.trees):
         for (above, top), (_, next_top) in pairwise(column):
             assert top + LINE * (len(above.values) + 1) <= next_top - 0.9 * GAP
         assert height >= column[-1][1] + LINE * len(column[-1][0].values)

@@ -1,85 +1,100 @@
-"""Skillbooks taught by chance, without any file."""
+"""Skillbooks of a pupil who is told lessons by chance."""
 
-from dataclasses import replace
+import sqlite3
+from contextlib import closing
+from pathlib import Path
 
 import numpy as np
 
-from gaitwright.knowledge.consult import consult
-from gaitwright.knowledge.correction import teach
-from gaitwright.knowledge.forest import Forest
 from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.modifier import Learned, Lesson
-from gaitwright.knowledge.repair import mend
-from gaitwright.knowledge.restructure import Mended
-from gaitwright.knowledge.rules import Rulebook
+from gaitwright.knowledge.told import Told
+from gaitwright.learning.notes import notes_of, with_steps
+from gaitwright.learning.skill_pupil import SkillPupil
 from gaitwright.skillbook import Ledger, Skillbook
-from gaitwright.skillbook.history import Step, number_lesson
-from knowledge.random_books import random_book, random_forest, random_situation
+from gaitwright.skillbook.history import Step, all_told
+from gaitwright.skills.situation import FOREST
+
+SKILLS = ("walk", "trot", "climb", "stop")
+DOING = ("standing", "walking", "trotting")
 
 
-def random_lesson(rng: np.random.Generator, forest: Forest, rules: int = 3) -> Lesson:
-    """A lesson that may well contradict others."""
-    name = f"rule {rng.integers(rules)}"
-    action = Action(name, 0.1, 1.0, "there", (("at", "B"), ("height", 0.3)), ("at",), (("size", 2.0),))
-    raw = {"friction": float(rng.random()), "ground": "grass"}
-    note = "it\nslipped – «twice»"
-    return Lesson("omission", name, random_situation(rng, forest), note=note, raw=raw, action=action)
+def moment(rng: np.random.Generator) -> dict[str, str | float]:
+    """What was measured somewhere."""
+    return {
+        "slope": round(float(rng.uniform(-20.0, 20.0)), 2),
+        "possible": round(float(rng.uniform(0.0, 2.0)), 3),
+        "sway": round(float(rng.uniform(0.0, 0.4)), 3),
+        "doing": str(rng.choice(DOING)),
+    }
 
 
-def truthful_lesson(rng: np.random.Generator, truth: Rulebook) -> Lesson:
-    """A lesson from one who knows the rules to be learned."""
-    while True:
-        situation = random_situation(rng, truth.forest)
-        rule = consult(truth, situation).rule
-        if rule is not None:
-            return Lesson("omission", rule, situation, action=Action(rule))
+def random_lesson(rng: np.random.Generator, name: str) -> Told:
+    """A lesson that may well contradict others, with everything that a book can hold of one."""
+    return lesson(name, moment(rng), str(rng.choice(SKILLS)), "possible")
 
 
-def corrected(book: Skillbook, lesson: Lesson) -> Skillbook:
-    """The book after one correction, mended until it is learned or nothing can mend it."""
-    lesson = number_lesson(lesson, book.rulebook.lessons)
-    for _ in range(10):
-        learned = teach(book.rulebook, lesson)
-        trouble = learned.trouble
-        book = stepped(
-            book, Step("taught", lesson, None, trouble.sentence if trouble else ""), learned.rulebook
+def truthful_lesson(rng: np.random.Generator, name: str) -> Told:
+    """A lesson from one who knows what is right."""
+    facts = moment(rng)
+    up = float(facts["slope"]) > 8.0
+    skill = "climb" if up else "trot" if float(facts["possible"]) > 0.7 else "walk"
+    return lesson(name, facts, skill, "slope" if up else "possible")
+
+
+def lesson(name: str, facts: dict[str, str | float], skill: str, about: str = "") -> Told:
+    action = Action(skill, 0.1, 1.0, "", (("at", "B"), ("height", 0.3)), ("at",), (("size", 2.0),))
+    return Told(name, facts, skill, action, "it\nslipped – «twice»", about, name.split(",", maxsplit=1)[0])
+
+
+def begun(seed: int = 0) -> Skillbook:
+    return Skillbook.new(FOREST, "go2", f"book {seed}", seed)
+
+
+def tell(book: Skillbook, pupil: SkillPupil, *told: Told) -> Skillbook:
+    """The book after its pupil heard some more, without any file."""
+    return with_steps(book, pupil, [Step("told", told=one, events=pupil.hear(one).events) for one in told])
+
+
+def forget(book: Skillbook, pupil: SkillPupil, name: str) -> Skillbook:
+    """The book after its pupil forgot a lesson, without any file."""
+    return with_steps(book, pupil, [Step("forgotten", note=name, events=pupil.forget(name))])
+
+
+def taught_skillbook(seed: int, lessons: int = 10) -> Skillbook:
+    """A book of some lessons; of many, the third one is forgotten."""
+    rng = np.random.default_rng(seed)
+    book, pupil = begun(seed), SkillPupil(seed)
+    for k in range(lessons):
+        book = tell(book, pupil, random_lesson(rng, f"trip {k // 4}, moment {k}"))
+    return forget(book, pupil, "trip 0, moment 2") if lessons > 6 else book
+
+
+def tell_in(ledger: Ledger, pupil: SkillPupil, told: Told) -> None:
+    """A lesson heard and stored."""
+    ledger.tell(told, pupil.hear(told).events)
+
+
+def forget_in(ledger: Ledger, pupil: SkillPupil, name: str) -> None:
+    """A lesson forgotten, and that stored."""
+    events = pupil.forget(name)
+    ledger.forget(name, pupil.rulebook(), noted(ledger, pupil), events)
+
+
+def settle(ledger: Ledger, pupil: SkillPupil) -> None:
+    """The pupil's rules stored."""
+    ledger.settle(pupil.rulebook(), noted(ledger, pupil))
+
+
+def noted(ledger: Ledger, pupil: SkillPupil):
+    return notes_of(pupil, len(all_told(ledger.book.steps)))
+
+
+def written_by(version: int, path: Path, which: str = "") -> Path:
+    """A book as a version wrote it."""
+    with closing(sqlite3.connect(path)) as db:
+        db.executescript(
+            (Path(__file__).parent / f"version_{version}{which}.sql").read_text(encoding="utf-8")
         )
-        if trouble is None:
-            break
-        mended = mend(book.rulebook, trouble, lesson.blame)
-        book = stepped(book, Step("mended", lesson, None, mended.sentence), mended.rulebook)
-        if mended.how == "none":
-            break
-    return book
-
-
-def teach_in(ledger: Ledger, lesson: Lesson) -> Learned:
-    """A lesson taught and recorded."""
-    learned = teach(ledger.book.rulebook, lesson)
-    ledger.record(lesson, learned)
-    return learned
-
-
-def mend_in(ledger: Ledger, lesson: Lesson, learned: Learned) -> Mended:
-    """The contradiction that a lesson just recorded ended in, mended and recorded."""
-    mended = mend(ledger.book.rulebook, learned.trouble, lesson.blame)
-    ledger.record(lesson, mended, "mended")
-    return mended
-
-
-def stepped(book: Skillbook, step: Step, rulebook: Rulebook) -> Skillbook:
-    events = rulebook.events[len(book.rulebook.events) :]
-    return replace(book, rulebook=rulebook, steps=(*book.steps, replace(step, events=events)))
-
-
-def taught_skillbook(seed: int, lessons: int = 10, trees: int = 4) -> Skillbook:
-    rng = np.random.default_rng(seed)
-    book = Skillbook.new(random_forest(rng, trees), "go2", f"book {seed}", seed)
-    for _ in range(lessons):
-        book = corrected(book, random_lesson(rng, book.rulebook.forest))
-    return book
-
-
-def truth_and_forest(seed: int) -> tuple[np.random.Generator, Rulebook]:
-    rng = np.random.default_rng(seed)
-    return rng, random_book(rng, random_forest(rng, 4, 4), 6, 0.4)
+        db.execute(f"PRAGMA application_id={0x47614954}")
+        db.execute(f"PRAGMA user_version={version}")
+    return path

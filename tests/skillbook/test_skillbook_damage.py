@@ -5,18 +5,30 @@ import os
 import sqlite3
 import tracemalloc
 from contextlib import closing
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from schooling import taught_skillbook
 
 from gaitwright.errors import BadFile
+from gaitwright.knowledge.lessons import Lesson
+from gaitwright.knowledge.memory import Action
+from gaitwright.knowledge.rules import Preference
 from gaitwright.skillbook import Skillbook, open_for_learning, rows, schema
+from gaitwright.skillbook.history import Step
 
 
 @pytest.fixture
 def book():
-    return taught_skillbook(11, 6)
+    """A book of lessons, with what only older ones have: a correction, and an order that was asked for."""
+    book = taught_skillbook(11, 6)
+    situation = book.rulebook.rules[0].positives[0].situation
+    rules = [rule.name for rule in book.rulebook.rules]
+    wish = Preference(rules[0], rules[1], situation, "lap 3")
+    taught = Step("taught", Lesson("omission", "walk", situation, "lap 3", action=Action("walk")))
+    rulebook = replace(book.rulebook, preferences=(wish,))
+    return replace(book, rulebook=rulebook, steps=(*book.steps, taught))
 
 
 @pytest.fixture
@@ -103,14 +115,14 @@ def test_a_book_with_other_tables_is_refused(path, statement):
         "DELETE FROM trees WHERE place = 1",
         "DELETE FROM steps WHERE place = 3",
         "DELETE FROM steps WHERE place = (SELECT max(place) FROM steps)",
-        "DELETE FROM events WHERE step = 1 AND place = 0",
+        "DELETE FROM events WHERE step = 3 AND place = 0",
         "DELETE FROM events",
         "DELETE FROM instances WHERE place = 0",
-        "DELETE FROM rules WHERE name = 'rule 1'",
-        "UPDATE rules SET name = 'another' WHERE name = 'rule 1'",
+        "DELETE FROM rules WHERE name = 'trot'",
+        "UPDATE rules SET name = 'another' WHERE name = 'trot'",
         "UPDATE trees SET place = 100 WHERE place = 1",
         "UPDATE instances SET place = place + 50",
-        "UPDATE steps SET content = replace(content, 'grass', 'grasp')",
+        "UPDATE steps SET content = replace(content, 'walking', 'talking')",
         "UPDATE steps SET seal = x'0011223344556677'",
         "UPDATE rules SET content = '{}'",
     ],
@@ -140,15 +152,15 @@ def reseal(path, table, edit, where="1"):
     [
         ("trees", lambda t: t["values"].__setitem__(1, "any"), "twice"),
         ("trees", lambda t: t["parents"].__setitem__(1, 9), "hangs below"),
-        ("trees", lambda t: t.update(name="a"), "two trees named"),
+        ("trees", lambda t: t.update(name="road"), "two trees named"),
         ("trees", lambda t: t.update(values=["any"] * 5000), "length <= 1024"),
-        ("rules", lambda r: r.update(upper=["nowhere"] * 4), "no value of a 'nowhere'"),
+        ("rules", lambda r: r.update(upper=["nowhere"] * 12), "no value of support 'nowhere'"),
         ("rules", lambda r: r.update(place=0), "in no order"),
         ("rules", lambda r: r["action"].update(slowest=1e308, fastest=0.0), "no range"),
         ("rules", lambda r: r["action"].update(skill=""), "names a skill"),
         ("rules", lambda r: r.update(quiet=-1), "quiet"),
         ("rules", lambda r: r.update(colour="red"), "unknown field `colour`"),
-        ("instances", lambda i: i["instance"].update(values=["any"] * 4), "no leaf"),
+        ("instances", lambda i: i["instance"].update(values=["any"] * 12), "no leaf"),
         ("instances", lambda i: i["instance"].update(kind="guess"), "guess"),
         ("instances", lambda i: i.update(choice=None), "without a choice"),
         ("instances", lambda i: i["instance"].update(id="x" * 20_000), "length <= 10000"),
@@ -156,6 +168,12 @@ def reseal(path, table, edit, where="1"):
         ("book", lambda b: b.update(seed="0"), "seed"),
         ("steps", lambda s: s.update(how="mended"), "begin with a rulebook|has a lesson"),
         ("steps", lambda s: s.pop("events", 0), "do not belong together"),
+        ("steps", lambda s: s.get("told", {}).update(rule=" "), "names that can be read"),
+        ("steps", lambda s: s.get("told", {}).update(id="trip 0, moment 0"), "two lessons have one name"),
+        ("steps", lambda s: s.get("told", {}).update(given="guessed"), "guessed"),
+        ("pupil", lambda p: p.update(heard=99), "other lessons than it holds"),
+        ("pupil", lambda p: p["own"].update(otherwise=50), "other lessons than it holds"),
+        ("pupil", lambda p: p.update(weights=[[0, 1e9]]), "other lessons than it holds"),
         ("steps", lambda s: s.get("lesson", {}).update(situation=[["a", "x"], ["a", "y"]]), "a tree twice"),
         ("events", lambda e: e.update(mark="middle"), "middle"),
     ],

@@ -6,18 +6,14 @@ from dataclasses import replace
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from schooling import mend_in, random_lesson, stepped, taught_skillbook, teach_in
+from schooling import begun, forget_in, random_lesson, settle, taught_skillbook, tell, tell_in
 
 from gaitwright.errors import BadFile, WrongUse
-from gaitwright.knowledge.analogy import mirrored
-from gaitwright.knowledge.correction import teach
-from gaitwright.knowledge.features import accept, propose_features
-from gaitwright.knowledge.forest import Forest
 from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.modifier import Lesson
-from gaitwright.knowledge.trees import tree
+from gaitwright.knowledge.told import Told
+from gaitwright.learning.notes import pupil_of, relearned
+from gaitwright.learning.skill_pupil import SkillPupil
 from gaitwright.skillbook import Skillbook, content_hash, export_text, import_text, open_for_learning
-from gaitwright.skillbook.history import Step
 from knowledge.random_books import random_book, random_forest
 
 SEEDS = st.integers(0, 1 << 30)
@@ -34,7 +30,7 @@ def test_a_book_comes_back_from_file_and_text_and_history(tmp_path_factory, seed
     text = export_text(book)
     again = import_text(text)
     assert again == book and export_text(again) == text and content_hash(again) == content_hash(book)
-    assert book.replayed() == book.rulebook
+    assert relearned(again).rules == book.rulebook.rules
 
 
 def test_a_book_can_begin_with_rules_of_any_kind(tmp_path, rng):
@@ -44,14 +40,14 @@ def test_a_book_can_begin_with_rules_of_any_kind(tmp_path, rng):
         book.save(tmp_path / "a.skills")
         assert Skillbook.load(tmp_path / "a.skills") == import_text(export_text(book)) == book
         assert [ancestor.how for ancestor in book.ancestors] == ["forked", "forked"]
-        assert book.replayed() == start
 
 
 def test_one_lesson_more_changes_few_lines(rng):
     book = taught_skillbook(7, 12)
-    learned = teach(book.rulebook, random_lesson(rng, book.rulebook.forest))
-    lesson = Lesson("positive", "x", random_lesson(rng, book.rulebook.forest).situation, id="new")
-    more = stepped(book, Step("taught", lesson, None, ""), learned.rulebook)
+    pupil = pupil_of(book)
+    # what she does anyway moves no rule
+    told = replace(pupil.told[0], id="new", facts={**pupil.told[0].facts, "possible": 1.0001})
+    more = tell(book, pupil, told)
     before, after = (export_text(b).splitlines() for b in (book, more))
     assert len(set(before) ^ set(after)) < 30 < len(before)
     assert export_text(replace(book, name="new name")).splitlines()[2:] == before[2:]
@@ -59,47 +55,28 @@ def test_one_lesson_more_changes_few_lines(rng):
 
 def test_lessons_appended_one_by_one_make_the_same_file_as_all_at_once(tmp_path, rng):
     path = tmp_path / "a.skills"
-    started = Skillbook.new(random_forest(rng, 4), "go2", "a", 3)
-    started.save(path)
+    whole, pupil, other = begun(3), SkillPupil(3), SkillPupil(3)
+    told = [random_lesson(rng, f"lesson {k}") for k in range(25)]
+    whole.save(path)
     with open_for_learning(path) as ledger:
-        for _ in range(25):
-            lesson = random_lesson(rng, ledger.book.rulebook.forest)
-            learned = teach_in(ledger, lesson)
-            if learned.trouble is not None:
-                mend_in(ledger, lesson, learned)
+        for k, one in enumerate(told):
+            tell_in(ledger, pupil, one)
             assert Skillbook.load(path) == ledger.book
+            if k % 5 == 4:
+                settle(ledger, pupil)
+                assert Skillbook.load(path) == ledger.book
+        forget_in(ledger, pupil, "lesson 7")
         book = ledger.book
-    assert any(step.how == "mended" for step in book.steps)
-    assert Skillbook.load(path) == book and book.replayed() == book.rulebook
+    whole = tell(whole, other, *told)
+    forgotten = other.forget("lesson 7")
+    assert Skillbook.load(path) == book
+    assert [step.told for step in book.steps[:-1]] == [step.told for step in whole.steps]
+    assert book.rulebook.rules == other.rulebook().rules == relearned(book).rules
+    assert book.rulebook.events == (*whole.rulebook.events, *forgotten)
     assert [event for step in book.steps for event in step.events] == list(book.rulebook.events)
     book.save(tmp_path / "b.skills")
     assert Skillbook.load(tmp_path / "b.skills") == book
     assert sorted(os.listdir(tmp_path)) == ["a.skills", "b.skills"]
-
-
-def test_features_analogies_and_a_changed_order_are_kept(tmp_path):
-    path = tmp_path / "a.skills"
-    ground = tree("ground", ("flat", "grass"))
-    forest = Forest((ground,))
-    Skillbook.new(forest, "go2", "a").save(path)
-    flat = forest.situation({"ground": "flat"})
-    with open_for_learning(path) as ledger:
-        teach_in(ledger, Lesson("omission", "walk", flat, raw={"friction": 0.9}, action=Action("walk")))
-        wrong = Lesson("omission", "creep", flat, raw={"friction": 0.2}, action=Action("creep"))
-        learned = teach_in(ledger, wrong)
-        assert learned.trouble is not None and learned.trouble.same
-        proposal = propose_features(ledger.book.rulebook, learned.trouble)[0]
-        ledger.edit(accept(ledger.book.rulebook, proposal).rulebook, "a feature was accepted")
-        ledger.edit(
-            mirrored(ledger.book.rulebook, "walk", "back", lambda a: replace(a, skill="back"), {}).rulebook,
-            "an analogy",
-        )
-        swapped = replace(ledger.book.rulebook, rules=ledger.book.rulebook.rules[::-1], preferences=())
-        ledger.edit(swapped, "turned round")
-        fewer = replace(ledger.book.rulebook, rules=ledger.book.rulebook.rules[1:], preferences=())
-        book = ledger.edit(fewer, "one rule less")
-    assert Skillbook.load(path) == book == import_text(export_text(book))
-    assert book.replayed() == book.rulebook
 
 
 def test_saving_takes_the_place_of_what_was_there(tmp_path):
@@ -136,14 +113,15 @@ def test_what_no_file_can_hold_is_said_before_it_is_written(tmp_path):
     path = tmp_path / "a.skills"
     book = taught_skillbook(5, 3)
     book.save(path)
-    situation = book.rulebook.forest.at((0,) * 4)
-    for lesson in (
-        Lesson("omission", "x" * 300, situation, action=Action("x")),
-        Lesson("omission", "x", situation, note="n" * 20_000, action=Action("x")),
-        Lesson("omission", "x", situation, note="\ud800", action=Action("x")),
+    facts, walk = {"slope": 1.0}, Action("walk")
+    for told in (
+        Told("new", facts, "x" * 300, walk),
+        Told("new", facts, "x", walk, because="n" * 20_000),
+        Told("new", facts, "x", walk, because="\ud800"),
+        Told("new", {f"fact {k}": 1.0 for k in range(2000)}, "x", walk),
     ):
         with open_for_learning(path) as ledger, pytest.raises(WrongUse, match="skillbook"):
-            teach_in(ledger, lesson)
+            ledger.tell(told)
         assert Skillbook.load(path) == book
     with pytest.raises(WrongUse, match="skillbook"):
         replace(book, name="n" * 300).save(path)
@@ -164,7 +142,7 @@ def test_what_no_file_can_hold_is_said_before_it_is_written(tmp_path):
             "line 'book' is missing",
         ),
         (lambda t: t.replace('"how":"begun"', '"how":"taught"', 1), "does not begin with a rulebook"),
-        (lambda t: t.replace('"id":"lesson 1"', '"id":"\\ud800"', 1), "line"),
+        (lambda t: t.replace('"id":"trip 0, moment 1"', '"id":"\\ud800"', 1), "line"),
     ],
 )
 def test_text_that_is_no_book_is_refused(spoil, message):

@@ -8,12 +8,12 @@ import sys
 from pathlib import Path
 
 import pytest
-from schooling import random_lesson, taught_skillbook, teach_in
+from schooling import forget_in, noted, random_lesson, settle, taught_skillbook, tell_in
 
 import gaitwright
 from gaitwright.bench.claims.kills import Tally, kill_through
 from gaitwright.errors import BadFile, WrongUse
-from gaitwright.knowledge.correction import teach
+from gaitwright.learning.notes import pupil_of, relearned
 from gaitwright.skillbook import Skillbook, open_for_learning
 from gaitwright.skillbook import writer as ledger
 
@@ -25,22 +25,19 @@ def path(tmp_path):
     return taught_skillbook(21, 6).save(tmp_path / "a.skills")
 
 
-def lesson_for(book, rng):
-    """A lesson that contradicts nothing."""
-    while True:
-        lesson = random_lesson(rng, book.rulebook.forest)
-        if teach(book.rulebook, lesson).trouble is None:
-            return lesson
+def tell_more(learner, rng):
+    """One more lesson, heard and stored."""
+    tell_in(learner, pupil_of(learner.book), random_lesson(rng, f"lesson {len(learner.book.steps)}"))
 
 
 def test_a_second_learner_is_refused_at_once_and_readers_are_not(path, rng):
     with open_for_learning(path) as first:
-        teach_in(first, lesson_for(first.book, rng))
+        tell_more(first, rng)
         with pytest.raises(BadFile, match="in use by another process"):
             open_for_learning(path)
         with pytest.raises(BadFile, match="in use by another process"):
             first.book.save(path)
-        teach_in(first, lesson_for(first.book, rng))
+        tell_more(first, rng)
         assert Skillbook.load(path) == first.book
         done = subprocess.run(
             [sys.executable, "-c", SECOND, str(path)],
@@ -70,7 +67,7 @@ except BadFile:
 def test_the_log_of_a_killed_learner_is_read_and_never_into_another_book(tmp_path, path, rng):
     script = "import shutil, sys; [shutil.copy(a, b) for a, b in zip(sys.argv[1::2], sys.argv[2::2])]"
     with open_for_learning(path) as learner:
-        teach_in(learner, lesson_for(learner.book, rng))
+        tell_more(learner, rng)
         for name in ("b", "c"):  # by another process: a closed descriptor would drop this one's locks
             pairs = [f"{path}", f"{tmp_path}/{name}.skills", f"{path}-wal", f"{tmp_path}/{name}.skills-wal"]
             subprocess.run([sys.executable, "-c", script, *pairs], check=True)
@@ -91,32 +88,53 @@ def test_a_disk_that_is_full_leaves_the_book_as_it_was(path, rng, monkeypatch):
         with pytest.raises(BadFile, match="full"):
             for _ in range(200):
                 before = learner.book
-                teach_in(learner, lesson_for(learner.book, rng))
+                tell_more(learner, rng)
         assert learner.book == before == Skillbook.load(path)
     with open_for_learning(path) as learner:
         assert learner.book == before
 
 
-def test_what_does_not_go_on_from_the_book_is_refused(path, rng):
+def test_a_lesson_is_told_once_and_forgotten_once(path, rng):
     with open_for_learning(path) as learner:
-        book = learner.book
-        lesson = lesson_for(book, rng)
-        elsewhere = teach(
-            taught_skillbook(23).rulebook, random_lesson(rng, taught_skillbook(23).rulebook.forest)
-        )
-        with pytest.raises(WrongUse, match="does not go on"):
-            learner.record(lesson, elsewhere)
-        learned = teach(book.rulebook, lesson)
-        with pytest.raises(WrongUse, match="comes with"):
-            learner.record(lesson, learned, "mended")
-        assert learner.book == book
-        learner.record(lesson, learned)
-    assert len(Skillbook.load(path).steps) == len(book.steps) + 1
+        book, pupil = learner.book, pupil_of(learner.book)
+        told = book.steps[1].told
+        with pytest.raises(WrongUse, match="was told before"):
+            learner.tell(told)
+        forget_in(learner, pupil, told.id)
+        assert learner.book.steps[-1].note == told.id and told not in pupil.told
+        after = learner.book
+        with pytest.raises(WrongUse, match="is forgotten already"):
+            learner.forget(told.id, after.rulebook, noted(learner, pupil), ())
+        with pytest.raises(WrongUse, match="was never told"):
+            learner.forget("nothing", after.rulebook, noted(learner, pupil), ())
+        with pytest.raises(WrongUse, match="was told before"):
+            learner.tell(told)  # a name is never given twice
+        assert learner.book == after == Skillbook.load(path)
+    assert relearned(Skillbook.load(path)).rules == after.rulebook.rules
+
+
+def test_what_was_told_and_not_settled_is_heard_when_she_goes_on(path, rng):
+    told = [random_lesson(rng, f"new {k}") for k in range(5)]
+    whole = pupil_of(Skillbook.load(path))
+    for one in told:
+        whole.hear(one)
+    with open_for_learning(path) as learner:
+        pupil = pupil_of(learner.book)
+        for one in told[:3]:
+            tell_in(learner, pupil, one)
+    before = Skillbook.load(path)
+    assert before.pupil.heard < len(before.steps) - 1 and relearned(before).rules == before.rulebook.rules
+    with open_for_learning(path) as learner:
+        pupil = pupil_of(learner.book)
+        for one in told[3:]:
+            tell_in(learner, pupil, one)
+        settle(learner, pupil)
+    assert Skillbook.load(path).rulebook.rules == whole.rulebook().rules
 
 
 def test_an_interrupt_while_storing_leaves_nothing_half_stored(path, rng, monkeypatch):
     with open_for_learning(path) as learner:
-        book, lesson = learner.book, lesson_for(learner.book, rng)
+        book = learner.book
 
         def interrupted(*_):
             raise KeyboardInterrupt
@@ -124,9 +142,9 @@ def test_an_interrupt_while_storing_leaves_nothing_half_stored(path, rng, monkey
         with monkeypatch.context() as patch:
             patch.setattr(ledger.rows, "put", interrupted)
             with pytest.raises(KeyboardInterrupt):
-                teach_in(learner, lesson)
+                tell_more(learner, rng)
         assert learner.book == book == Skillbook.load(path)
-        teach_in(learner, lesson)
+        tell_more(learner, rng)
         assert Skillbook.load(path) == learner.book != book
 
 
@@ -152,4 +170,5 @@ def test_ten_kills_lose_nothing_acknowledged(tmp_path, monkeypatch):
         kill_through(tmp_path / f"{seed}.skills", seed, 10, tally)
         seed += 1
     assert (tally.lost, tally.kept, tally.same) == (0, tally.runs, tally.runs), tally.first
+    assert tally.alike == tally.books > 0, tally.first
     assert tally.lessons > 10 and tally.longest_ms > 0

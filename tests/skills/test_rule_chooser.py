@@ -10,10 +10,8 @@ from test_chooser import DOG, angles, places, route, sensed
 
 from gaitwright.errors import WrongUse
 from gaitwright.knowledge.consult import consult
-from gaitwright.knowledge.correction import teach
 from gaitwright.knowledge.forest import Forest
 from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.modifier import Lesson, learn
 from gaitwright.knowledge.rules import QUIET, Rulebook
 from gaitwright.knowledge.trees import tree
 from gaitwright.signals import Scan
@@ -22,6 +20,7 @@ from gaitwright.skills.library import speed_scale
 from gaitwright.skills.measured import measured
 from gaitwright.skills.rule_chooser import DOING, RuleChooser, carry_out
 from gaitwright.skills.situation import FOREST, named
+from knowledge.hand_made import rule_of
 from oracles import robot_called
 
 AHEAD = route((5.0, 0.0), speed=0.4 * speed_scale(DOG))
@@ -34,18 +33,20 @@ def situation(robot, way, here):
     return named(measured(robot, way, here))
 
 
-def taught(*lessons: tuple[Action, object]) -> Rulebook:
-    book = Rulebook(FOREST)
-    for action, way in lessons:
-        at = situation(DOG, way, sensed())
-        blame = {"climb": "road", "turn-in-place": "turn"}.get(action.skill, "")
-        learned = teach(book, Lesson("omission", action.skill, at, blame=blame, action=action))
-        assert learned.trouble is None
-        book = learned.rulebook
-    return replace(book, rules=tuple(replace(rule, quiet=QUIET) for rule in book.rules))
+def taught(*rules: tuple[Action, object, dict[str, str]]) -> Rulebook:
+    """Rules that were seen right on a way each, with their upper marks."""
+    made = []
+    for action, way, upper in rules:
+        rule = rule_of(FOREST, action.skill, upper, {"seen": situation(DOG, way, sensed())}, action=action)
+        made.append(replace(rule, quiet=QUIET))
+    return Rulebook(FOREST, tuple(made))
 
 
-BOOK = taught((Action("trot", 0.2, 0.6), AHEAD), (Action("climb", 0.1, 0.3), STAIRS), (TURN, SIDEWAYS))
+BOOK = taught(
+    (TURN, SIDEWAYS, {"turn": "off the way"}),
+    (Action("climb", 0.1, 0.3), STAIRS, {"road": "up"}),
+    (Action("trot", 0.2, 0.6), AHEAD, {}),
+)
 RULES = RuleChooser(DOG, BOOK)
 
 
@@ -99,10 +100,9 @@ def test_where_no_rule_fires_the_plain_rules_do_and_that_is_said(place, yaw):
 
 def test_a_skill_that_a_robot_lacks_is_left_to_the_plain_rules():
     hexapod = robot_called("hexapod")
-    book = learn(
-        Rulebook(FOREST),
-        Lesson("omission", "run", situation(hexapod, AHEAD, six()), action=Action("run", 0.1, 2.0)),
-    ).rulebook
+    run = Action("run", 0.1, 2.0)
+    seen = {"seen": situation(hexapod, AHEAD, six())}
+    book = Rulebook(FOREST, (rule_of(FOREST, "run", right=seen, action=run),))
     call = RuleChooser(hexapod, book).choose(replace(AHEAD, speed=0.1), six())
     assert call.skill in ("walk", "trot") and "wants a skill it does not have" in call.because
 
@@ -119,4 +119,4 @@ def test_books_about_something_else_and_conditions_that_are_none_are_refused():
         RuleChooser(DOG, other)
     for until, told in (("straight", "is no condition"), ("turn is ahead", "must name leaves of turn")):
         with pytest.raises(WrongUse, match=told):
-            RuleChooser(DOG, taught((Action("trot", 0.1, 0.5, until=until), AHEAD)))
+            RuleChooser(DOG, taught((Action("trot", 0.1, 0.5, until=until), AHEAD, {})))

@@ -22,6 +22,9 @@ BOOK_TASKS = {
     "merge": "two books to one",
     "export": "a book as text",
     "import": "a book from text",
+    "confirm": "BOOK takes in a SKILL that is proposed by analogy",
+    "undo": "BOOK forgets the last lesson that counts",
+    "forget": "BOOK forgets a LESSON by its name",
 }
 """What `gaitwright books` can do."""
 LONGEST = 3600.0

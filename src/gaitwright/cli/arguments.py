@@ -208,8 +208,13 @@ def add_explain(parser: argparse.ArgumentParser) -> None:
 
 def add_books(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("task", type=book_task, metavar="TASK", help=listed(BOOK_TASKS))
-    parser.add_argument("files", nargs="+", metavar="FILE", help="the books, or the text to import")
-    out = "the new book, or where the text goes (export: the standard output)"
+    parser.add_argument(
+        "files",
+        nargs="+",
+        metavar="FILE",
+        help="the books, or the text to import; for confirm a skill, for forget a lesson too",
+    )
+    out = "the new book, or where the text goes (export: the standard output; confirm, undo, forget: none)"
     parser.add_argument("--out", metavar="FILE|-", help=out)
     base = "merge: the book that both come from (found without being named, checked where it is)"
     parser.add_argument("--base", metavar="BOOK", help=base)

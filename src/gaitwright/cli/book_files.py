@@ -1,6 +1,7 @@
 """The doors to books in files: what is read is checked, what is written is new."""
 
 import os
+from dataclasses import asdict
 from pathlib import Path
 
 from gaitwright.cli.output import settled
@@ -9,7 +10,7 @@ from gaitwright.files import content_of, is_there
 from gaitwright.knowledge.json_form import MAX_BYTES, loads
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.knowledge.told import Told
-from gaitwright.skillbook.book import Skillbook
+from gaitwright.skillbook.book import Skillbook, content_hash
 from gaitwright.skillbook.history import all_told, forgotten
 from gaitwright.skillbook.schema import MAX_BYTES as BOOK_BYTES
 
@@ -66,3 +67,18 @@ def new_file(where: str, what: str) -> Path:
     if not os.access(path.parent, os.W_OK):
         raise WrongUse(f"no permission to write {path.name} to {path.parent}")
     return path
+
+
+def facts_of(book: Skillbook, path: str) -> dict:
+    """A book as figures."""
+    rules = book.rulebook
+    return {
+        "book": path,
+        "name": book.name,
+        "robot": book.robot,
+        "rules": [rule.name for rule in rules.rules],
+        "lessons": rules.lessons,
+        "steps": len(book.steps),
+        "ancestors": [asdict(ancestor) for ancestor in book.ancestors],
+        "hash": content_hash(book),
+    }

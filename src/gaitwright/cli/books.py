@@ -1,4 +1,4 @@
-"""`gaitwright books`: two skillbooks joined to one; a skillbook as text, and back."""
+"""`gaitwright books`: two skillbooks joined to one; a skillbook as text, and back; lessons taken back."""
 
 import json
 import sys
@@ -6,23 +6,33 @@ from argparse import Namespace
 from dataclasses import asdict, replace
 from pathlib import Path
 
-from gaitwright.cli.book_files import SQLITE, check_there, new_file, skillbook_of
+from gaitwright.cli import book_lessons
+from gaitwright.cli.book_files import SQLITE, check_there, facts_of, new_file, skillbook_of
 from gaitwright.cli.console import remark, show_pairs, show_prose, working
 from gaitwright.cli.explain_text import counted
 from gaitwright.cli.output import check_json, write_json, write_whole
 from gaitwright.errors import BadFile, WrongUse
 from gaitwright.files import content_of, text_of
 from gaitwright.knowledge.json_form import MAX_BYTES, loads
+from gaitwright.learning.merging import Merged, merge
+from gaitwright.learning.notes import relearned
 from gaitwright.skillbook.book import Skillbook, content_hash, export_text, import_text
-from gaitwright.skillbook.merging.merge import Merged, merge
+from gaitwright.skillbook.history import all_told
 
-FILES = {"merge": ("OURS", "THEIRS"), "export": ("BOOK",), "import": ("TEXT",)}
-"""The files that each task is given."""
-
-REPLAYED = {
-    True: "its lessons, taken again, make these rules",
-    False: "its lessons, taken again, make other rules: the text was changed, or another version taught it",
+FILES = {
+    "merge": ("OURS", "THEIRS"),
+    "export": ("BOOK",),
+    "import": ("TEXT",),
+    "confirm": ("BOOK", "SKILL"),
+    "undo": ("BOOK",),
+    "forget": ("BOOK", "LESSON"),
 }
+"""What each task is given."""
+
+HEARD_AGAIN = "its lessons, heard again, make these rules"
+MADE_OTHERS = "its lessons, heard again, make other rules: the text was changed, or another version taught it"
+OLDER = "its lessons are of an older kind, which nobody hears any more: its rules are taken as they stand"
+NO_LESSONS = "there are no lessons in it: its rules are taken as they stand"
 
 
 def run(args: Namespace) -> int:
@@ -33,7 +43,9 @@ def run(args: Namespace) -> int:
         raise WrongUse(f"books {args.task} takes {len(wanted)}: {' '.join(wanted)}; got {given}")
     if args.base is not None and args.task != "merge":
         raise WrongUse(f"--base is the book that two come from: books {args.task} has no use for it")
-    {"merge": merge_books, "export": export_book, "import": import_book}[args.task](args)
+    if args.out is not None and args.task in IN_PLACE:
+        raise WrongUse(f"books {args.task} changes {wanted[0]} itself: leave --out out")
+    TASKS[args.task](args)
     return 0
 
 
@@ -132,8 +144,7 @@ def import_book(args: Namespace) -> None:
         book = Skillbook.new(loads(content, source), name=Path(source).stem)
     else:
         book = import_text(text_of(content, source), source)
-    with working("taking its lessons again", worth_a_line=False):
-        same = book.replayed() == book.rulebook
+    history = checked_again(book)
     book.save(out)
     write_json(args.json, json.dumps(facts_of(book, args.out), indent=2, ensure_ascii=False))
     rules = book.rulebook
@@ -141,25 +152,21 @@ def import_book(args: Namespace) -> None:
         ("name", book.name),
         ("rules", ", ".join(rule.name for rule in rules.rules) or "none"),
         ("lessons", str(rules.lessons)),
-        ("history", REPLAYED[same]),
+        ("history", history),
         ("next", f"gaitwright explain {args.out}"),
     ]
     show_pairs(f"{args.out} holds what {source} says", rows, to_stderr=args.json == "-")
 
 
-def facts_of(book: Skillbook, path: str) -> dict:
-    """A book as figures."""
-    rules = book.rulebook
-    return {
-        "book": path,
-        "name": book.name,
-        "robot": book.robot,
-        "rules": [rule.name for rule in rules.rules],
-        "lessons": rules.lessons,
-        "steps": len(book.steps),
-        "ancestors": [asdict(ancestor) for ancestor in book.ancestors],
-        "hash": content_hash(book),
-    }
+def checked_again(book: Skillbook) -> str:
+    """Whether the rules of a book are what its lessons make, in words: they are heard again, which can take
+    a minute for a thousand."""
+    if book.pupil is None:  # nobody has made rules of what was told
+        return OLDER if any(step.lesson is not None for step in book.steps) else NO_LESSONS
+    heard = min(book.pupil.heard, len(all_told(book.steps)))
+    with working(f"hearing its {counted(heard, 'lesson')} again", worth_a_line=None):
+        same = relearned(book).rules == book.rulebook.rules
+    return HEARD_AGAIN if same else MADE_OTHERS
 
 
 def out_of(args: Namespace) -> str:
@@ -167,3 +174,12 @@ def out_of(args: Namespace) -> str:
     if args.out in (None, "-"):
         raise WrongUse(f"books {args.task} makes a new skillbook: name its file with --out")
     return args.out
+
+
+IN_PLACE = {
+    "confirm": book_lessons.confirm,
+    "undo": book_lessons.undo,
+    "forget": book_lessons.forget,
+}
+"""The tasks that change a book itself."""
+TASKS = {"merge": merge_books, "export": export_book, "import": import_book, **IN_PLACE}

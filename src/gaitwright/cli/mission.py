@@ -52,7 +52,7 @@ def learn(ledger: Ledger, recording: Recording, name: str) -> None:
     if told is None:
         remark("nothing went wrong that the robot noticed: nothing was learned")
         return
-    tried = room.tried(replace(told, id=room.free_name(told.id)))
+    tried = room.tried(replace(told, id=room.unused(told.id)))
     room.keep(tried)
     remark(f"{told.because}: {told.action.skill} would have been better, learned as {tried.told.id!r}")
     for event in tried.taken.events:

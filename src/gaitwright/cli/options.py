@@ -104,16 +104,19 @@ COMMANDS = {
         ),
     ),
     "books": Command(
-        "skillbooks: two joined to one; one as text, and back",
+        "skillbooks: two joined to one; one as text, and back; lessons taken back",
         "merge: teaches OURS what THEIRS was taught since they went apart, into a new book; what the two "
-        "teach differently is told in a sentence each, and there ours stays. export: a skillbook as text, "
+        "teach differently is told in a sentence each. export: a skillbook as text, "
         "one thing a line, the same text for the same book, for reading, diff and version control. import: "
         "a skillbook from such a text, or one that begins with a rulebook as JSON. No file is ever written "
-        "over.",
+        "over by these. confirm, undo and forget change BOOK itself, and say what changed: confirm takes in "
+        "a skill that `gaitwright teach` proposed by analogy, undo forgets the last lesson that counts (what "
+        "was confirmed together counts as one), forget a lesson by its name.",
         (
             "gaitwright books merge mine.skills yours.skills --out both.skills",
             "gaitwright books export mine.skills --out mine.txt     # without --out: to the standard output",
             "gaitwright books import mine.txt --out again.skills",
+            "gaitwright books confirm mine.skills walk-backward     # `books undo` takes it back",
         ),
     ),
     "bench": Command(

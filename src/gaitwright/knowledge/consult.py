@@ -22,8 +22,7 @@ class Decision:
 
 
 def consult(rulebook: Rulebook, situation: Situation) -> Decision:
-    """The first rule of the conflict set. The rules' order is the book's: what the modifier made of
-    preferences.
+    """The first rule of the conflict set, in the book's order.
 
     (a) All rules share the book's forest, so it is merged as it stands. (b, c) Each value of the situation is
     set into its tree and leaves the rules whose upper mark it is below. (d) The first of these is applied.

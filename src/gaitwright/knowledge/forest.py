@@ -89,11 +89,6 @@ class Forest:
             self.names, tuple(tree.leaves[k] for tree, k in zip(self.trees, places, strict=True))
         )
 
-    def replaced(self, tree: FeatureTree) -> "Forest":
-        """The forest with its tree of that name replaced by this one."""
-        self[tree.name]
-        return Forest(tuple(tree if tree.name == old.name else old for old in self.trees))
-
 
 def replace_value(forest: Forest, situation: Situation, tree: str, value: str | float) -> Situation:
     """The situation with another value in one tree."""

@@ -8,9 +8,9 @@ from msgspec import Meta
 
 from gaitwright.errors import BadFile, WrongUse
 from gaitwright.files import json_of
+from gaitwright.knowledge.audit import audit
 from gaitwright.knowledge.forest import MAX_TREES, Forest, Situation
 from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.modifier import audit
 from gaitwright.knowledge.rules import (
     MAX_RULES,
     Choice,

@@ -147,16 +147,6 @@ class Rulebook:
                 return k
         raise unknown("rule", name, [rule.name for rule in self.rules])
 
-    def with_rule(self, rule: Rule) -> tuple[Rule, ...]:
-        """The rules in their order, the one of that name replaced by this one."""
-        here = self.place(rule.name)
-        return (*self.rules[:here], rule, *self.rules[here + 1 :])
-
-
-def empty_rule(forest: Forest, name: str, action: Action) -> Rule:
-    """A rule with a conclusion and no conditions: all upper marks at the roots, no lower marks."""
-    return Rule(name, action, tuple(Marks(tree) for tree in forest.names))
-
 
 def status(rule: Rule) -> Status:
     """How far the rule has come: firm when the marks meet in every tree, stabilised when they rest."""

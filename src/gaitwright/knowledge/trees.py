@@ -1,7 +1,7 @@
 """Feature trees: the values of one feature, from "any" down to leaves that exclude each other (§5.4.2.1).
 
 The values below a value exclude each other and leave nothing out, so a value *is* the set of the leaves
-below it. That set is kept as the bits of one int: below, least upper bound and regrouping are set algebra.
+below it. That set is kept as the bits of one int: below and least upper bound are set algebra.
 No value stands alone below another, so no two values of a tree mean the same leaves. Where a rule needs
 leaves that have no value of their own, a mark names them: "A to B" is a run of neighbouring intervals,
 "A or B" any leaves.
@@ -115,16 +115,6 @@ class FeatureTree:
             here = self.parents[here]
         return self.values[here]
 
-    def child_towards(self, value: str, below: str) -> str:
-        """The value one step down from `value` towards `below`. Raises `WrongUse` where that is not below
-        it."""
-        top, here = self.at(value), self.at(below)
-        while here >= 0 and self.parents[here] != top:
-            here = self.parents[here]
-        if here < 0:
-            raise WrongUse(f"in tree {self.name} no way leads down from {value!r} to {below!r}")
-        return self.values[here]
-
     def steps(self, a: str, b: str) -> int:
         """How many branches the way from a to b has: how unlike two values are."""
         shared = len(self.path(self.least_upper_bound(a, b)))
@@ -180,38 +170,6 @@ def interval_tree(
             )
         grown = tree(name, _halved(row))
     return FeatureTree(name, grown.values, grown.parents, about, unit, cuts)
-
-
-def regrouped(old: FeatureTree, groups: Mapping[int, str]) -> FeatureTree:
-    """The same leaves under other inner values: `groups` maps leaf sets (bits of `old`) to labels.
-
-    The sets must be nested or apart (see `nest`); groups of one leaf or of all are there anyway.
-    """
-    whole = (1 << len(old.leaves)) - 1
-    names = {whole: ROOT}
-    names |= {bits: label for bits, label in groups.items() if bits != whole and bits.bit_count() > 1}
-    names |= {1 << k: leaf for k, leaf in enumerate(old.leaves)}
-    values, parents, open_sets = [], [], []
-    # Sorted by the lowest leaves of all sets around it, each set follows what it hangs below.
-    for bits in sorted(names, key=lambda bits: _position(bits, names)):
-        while open_sets and bits & ~open_sets[-1][0]:
-            open_sets.pop()
-        values.append(names[bits])
-        parents.append(open_sets[-1][1] if open_sets else -1)
-        open_sets.append((bits, len(values) - 1))
-    return FeatureTree(old.name, tuple(values), tuple(parents), old.about, old.unit, old.bounds, old.source)
-
-
-def nest(sets: Sequence[int]) -> bool:
-    """Whether any two of the sets are apart or one within the other: what a tree can hold."""
-    return all(not a & b or not a & ~b or not b & ~a for i, a in enumerate(sets) for b in sets[:i])
-
-
-def _position(bits: int, names: Mapping[int, str]) -> list[int]:
-    """Where a set stands in the order of the tree: the lowest leaf of each set around it, from the root
-    down."""
-    around = sorted((other for other in names if not bits & ~other), key=int.bit_count, reverse=True)
-    return [(other & -other).bit_length() for other in around]
 
 
 def _hang(name: str, shape: Any, parent: int, values: list[str], parents: list[int]) -> None:

@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from gaitwright.knowledge.forest import Forest
-from gaitwright.knowledge.generalise import raised
 from gaitwright.knowledge.rules import Instance, Marks, Rule, Rulebook
 from gaitwright.knowledge.trees import FeatureTree
 
@@ -38,6 +37,14 @@ def marks_around(tree: FeatureTree, positives: Sequence[Instance]) -> Marks:
         value = positive.situation[tree.name]
         marks = marks if value is None else raised(tree, marks, value)
     return marks
+
+
+def raised(tree: FeatureTree, marks: Marks, value: str) -> Marks:
+    """One tree's marks, the lower raised just enough to hold the value (the thesis's algorithm D); the first
+    value is a lower mark itself."""
+    if marks.lower is None:
+        return Marks(marks.tree, marks.upper, value)
+    return Marks(marks.tree, marks.upper, tree.least_upper_bound(value, marks.lower))
 
 
 def _over(forest: Forest, rule: Rule) -> Rule:

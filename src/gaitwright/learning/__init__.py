@@ -1,1 +1,1 @@
-"""A teacher's trips → a rulebook: the critic, the apprentice that watches, and the school (§5.4.2, §6.4)."""
+"""A teacher's words → a rulebook: school, lessons in person, own mistakes, joined books (§5.4.2, §6.4)."""

@@ -13,7 +13,7 @@ from gaitwright.knowledge.told import Told
 from gaitwright.learning.decision_point import DecisionPoint
 from gaitwright.learning.notes import notes_of
 from gaitwright.learning.skill_pupil import Choice, SkillPupil, Taken
-from gaitwright.skillbook.history import all_told
+from gaitwright.skillbook.history import all_told, free_name
 from gaitwright.skillbook.writer import Ledger
 
 
@@ -100,13 +100,9 @@ class LiveLessons:
         self.pupil = after
         return name, events
 
-    def free_name(self, name: str) -> str:
+    def unused(self, name: str) -> str:
         """A name for a lesson that none in the book has yet."""
-        taken = {told.id for told in all_told(self.ledger.book.steps)}
-        free, number = name, 2
-        while free in taken:
-            free, number = f"{name}, time {number}", number + 1
-        return free
+        return free_name(name, {told.id for told in all_told(self.ledger.book.steps)})
 
     def settle(self) -> None:
         """Puts the rules and the notes on the pupil into the book."""

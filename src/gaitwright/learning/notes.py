@@ -1,6 +1,7 @@
 """A pupil ↔ the notes on her in a skillbook: she goes on as if she had never stopped."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -8,10 +9,11 @@ from gaitwright.errors import BadFile
 from gaitwright.induction.cases import no_cases, table_of
 from gaitwright.induction.decision_list import Bound, Lines, RuleLine
 from gaitwright.induction.standing import standing_of
+from gaitwright.knowledge.rules import Rulebook
 from gaitwright.knowledge.told import Told
 from gaitwright.learning.skill_pupil import SkillPupil, instance_of
 from gaitwright.skillbook.book import Skillbook
-from gaitwright.skillbook.history import all_told, forgotten
+from gaitwright.skillbook.history import Step, all_told, forgotten
 from gaitwright.skillbook.pupil_notes import ColumnBound, ListedRule, PupilNotes, RuleList
 from gaitwright.skills.vocabulary import VOCABULARY
 
@@ -119,3 +121,28 @@ def line_of(rule: ListedRule, source: str) -> RuleLine:
 
 def yes_or_no(marks: Sequence[bool]) -> str:
     return "".join("1" if mark else "0" for mark in marks)
+
+
+def relearned(book: Skillbook) -> Rulebook:
+    """The rules that a new pupil makes of what a book's pupil has heard, lesson by lesson: those of the book,
+    unless its text was changed or this code learns otherwise. What was told after her notes is left out."""
+    notes = book.pupil
+    taught = SkillPupil(book.seed if notes is None else notes.seed)
+    left = 0 if notes is None else notes.heard
+    for step in book.steps:
+        if step.told is not None and left == 0:
+            break
+        if step.told is not None:
+            taught.hear(step.told)
+            left -= 1
+        elif step.how == "forgotten":
+            taught.forget(step.note)
+    return taught.rulebook()
+
+
+def with_steps(book: Skillbook, taught: SkillPupil, steps: Sequence[Step]) -> Skillbook:
+    """A book with more steps, which its pupil has been through: as a ledger stores them and settles it."""
+    every = (*book.steps, *steps)
+    events = (*book.rulebook.events, *(event for step in steps for event in step.events))
+    rulebook = replace(taught.rulebook(), events=events)
+    return replace(book, rulebook=rulebook, steps=every, pupil=notes_of(taught, len(all_told(every))))

@@ -2,7 +2,7 @@
 
 import re
 
-from gaitwright.knowledge.modifier import Lesson
+from gaitwright.knowledge.lessons import Lesson
 from gaitwright.knowledge.told import Told
 from gaitwright.skillbook.book import Skillbook
 

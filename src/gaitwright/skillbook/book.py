@@ -20,7 +20,7 @@ from gaitwright.skillbook.entries import (
     step_entry,
     steps_of,
 )
-from gaitwright.skillbook.history import Ancestor, Step, all_told, forgotten, replayed
+from gaitwright.skillbook.history import Ancestor, Step, all_told, forgotten
 from gaitwright.skillbook.pupil_notes import PupilNotes, actions_in, is_sound
 
 
@@ -61,11 +61,6 @@ class Skillbook:
         """A book of another name that goes on from here and remembers this one."""
         ancestor = Ancestor("forked", self.name, content_hash(self))
         return replace(self, name=name, ancestors=(*self.ancestors, ancestor))
-
-    def replayed(self) -> Rulebook:
-        """The rulebook made anew from every step: `rulebook`, unless this code learns otherwise than the one
-        that taught it."""
-        return replayed(self.steps)
 
 
 def content_hash(book: Skillbook) -> str:

@@ -22,8 +22,8 @@ from gaitwright.knowledge.json_form import (
     from_plain,
     to_plain,
 )
+from gaitwright.knowledge.lessons import Lesson
 from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.modifier import Lesson
 from gaitwright.knowledge.rules import Event, Rulebook
 from gaitwright.knowledge.told import Given, Told
 from gaitwright.skillbook.history import Ancestor, How, Step

@@ -1,14 +1,11 @@
-"""What was taught, step by step: enough to make the rulebook again from nothing."""
+"""What was taught, step by step."""
 
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass
 from typing import Literal
 
-from gaitwright.errors import WrongUse
-from gaitwright.knowledge.correction import teach
-from gaitwright.knowledge.modifier import Inconsistency, Lesson, learn
-from gaitwright.knowledge.repair import mend
-from gaitwright.knowledge.rules import Event, Instance, Rulebook
+from gaitwright.knowledge.lessons import Lesson
+from gaitwright.knowledge.rules import Event, Rulebook
 from gaitwright.knowledge.told import Told
 
 How = Literal["begun", "taught", "learned", "mended", "edited", "told", "forgotten"]
@@ -18,10 +15,11 @@ How = Literal["begun", "taught", "learned", "mended", "edited", "told", "forgott
 class Step:
     """One step: its lesson and how that was taken in, and the events that it moved.
 
-    `how`: "told" to a pupil who finds her own bounds (`told`), or what she was told of that name "forgotten"
-    (`note`); in older books "taught" by `teach`, "learned" by `learn`, "mended" by `mend` right after a step
-    that ended in a contradiction. "begun" and "edited" (a confirmation, an analogy, a new feature, a person's
-    change) hold the whole `rulebook` after them, without its events, and say in `note` what they are.
+    `how`: "begun" with a whole `rulebook`, without its events; "told" to the pupil (`told`), or what she was
+    told of that name "forgotten" (`note`). Older books have more, which is read and not made any more: a
+    lesson "taught" as a correction or "learned" by one rule, "mended" right after it contradicted earlier
+    ones, and rules "edited" (a confirmation, an analogy, a new feature), whole as at the beginning; `note`
+    says what they are.
     """
 
     how: How
@@ -51,40 +49,10 @@ def forgotten(steps: Iterable[Step]) -> set[str]:
     return {step.note for step in steps if step.how == "forgotten"}
 
 
-def number_lesson(lesson: Lesson, lessons: int) -> Lesson:
-    """A lesson as a file keeps it: numbered, and without measurements that are not finite."""
-    name = lesson.id or f"lesson {lessons + 1}"
-    kept = Instance(name, lesson.kind, lesson.situation, lesson.raw).raw
-    return replace(lesson, id=name, raw=dict(kept))
-
-
-def replayed(steps: Iterable[Step]) -> Rulebook:
-    """The rulebook that the steps of an older book make when they are taken again.
-
-    Raises `WrongUse` where they cannot be.
-    """
-    rulebook: Rulebook | None = None
-    trouble: Inconsistency | None = None
-    for step in steps:
-        if step.rulebook is not None:
-            events = (*(rulebook.events if rulebook else ()), *step.events)
-            rulebook, trouble = replace(step.rulebook, events=events), None
-        elif rulebook is None or step.lesson is None:
-            raise WrongUse(f"a history begins with a rulebook, and a step {step.how!r} has a lesson")
-        else:
-            rulebook, trouble = take_lesson(rulebook, step.how, step.lesson, trouble)
-    if rulebook is None:
-        raise WrongUse("a history has at least the step that began it")
-    return rulebook
-
-
-def take_lesson(
-    rulebook: Rulebook, how: How, lesson: Lesson, trouble: Inconsistency | None
-) -> tuple[Rulebook, Inconsistency | None]:
-    """The rulebook after one lesson, and the contradiction that it ended in."""
-    if how == "mended":
-        if trouble is None:
-            raise WrongUse(f"{lesson.id} was mended, but nothing contradicted it")
-        return mend(rulebook, trouble, lesson.blame).rulebook, None
-    learned = teach(rulebook, lesson) if how == "taught" else learn(rulebook, lesson)
-    return learned.rulebook, learned.trouble
+def free_name(wanted: str, taken: Collection[str]) -> str:
+    """A name for a lesson that none has yet: the wanted one, else that with a number."""
+    name, number = wanted, 1
+    while name in taken:
+        number += 1
+        name = f"{wanted} ({number})"
+    return name

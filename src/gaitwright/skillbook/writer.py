@@ -4,18 +4,15 @@ import sqlite3
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
-from typing import Literal
 
 from gaitwright.errors import BadFile, WrongUse
 from gaitwright.knowledge.json_form import MAX_EVENTS
-from gaitwright.knowledge.modifier import Learned, Lesson
-from gaitwright.knowledge.restructure import Mended
 from gaitwright.knowledge.rules import Event, Rulebook
 from gaitwright.knowledge.told import Told
 from gaitwright.skillbook import rows
 from gaitwright.skillbook.book import Skillbook, about_of, book_of
-from gaitwright.skillbook.entries import checked, encoded, event_entries, rulebook_entry, step_entry
-from gaitwright.skillbook.history import Step, number_lesson
+from gaitwright.skillbook.entries import checked, encoded, event_entries, step_entry
+from gaitwright.skillbook.history import Step, all_told, forgotten
 from gaitwright.skillbook.pupil_notes import PupilNotes
 from gaitwright.skillbook.schema import MAX_BYTES, connected, located, migrate, number, sentences, version_of
 
@@ -41,49 +38,25 @@ class Ledger:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def record(
-        self,
-        lesson: Lesson,
-        learned: Learned | Mended,
-        how: Literal["taught", "learned", "mended"] = "taught",
-    ) -> Skillbook:
-        """Stores what one lesson made of the current rulebook; returns when it is durable.
-
-        `how` says what made it: `teach`, `learn`, or `mend` of the contradiction just recorded. Raises
-        `WrongUse` where `learned` does not go on from `book`, and `BadFile` where the file cannot be written;
-        then nothing was stored.
-        """
-        last = self.book.steps[-1]
-        note = learned.sentence if isinstance(learned, Mended) else ""
-        if isinstance(learned, Learned) and learned.trouble is not None:
-            note = learned.trouble.sentence
-        if (how == "mended") != isinstance(learned, Mended):
-            raise WrongUse(f"a step {how!r} comes with what `{'mend' if how == 'mended' else 'teach'}` gave")
-        if how == "mended" and (last.lesson is None or not last.note or last.how == "mended"):
-            raise WrongUse("a step is mended right after one that ended in a contradiction")
-        if how == "mended" and last.lesson is not None:
-            lesson = replace(lesson, id=lesson.id or last.lesson.id)
-        lesson = number_lesson(lesson, self.book.rulebook.lessons)
-        return self._append(Step(how, lesson, None, note), learned.rulebook)
-
-    def edit(self, rulebook: Rulebook, note: str) -> Skillbook:
-        """Stores a rulebook that was changed in another way than by a lesson, and says which."""
-        rulebook_entry(rulebook)
-        return self._append(Step("edited", None, replace(rulebook, events=()), note), rulebook)
-
     def tell(self, told: Told, events: tuple[Event, ...] = ()) -> Skillbook:
         """Stores what a pupil was told, and what that moved; her notes and rules come with `settle`.
 
         Raises `WrongUse` where something of that name was told before.
         """
-        if any(step.told and step.told.id == told.id for step in self.book.steps):
+        if any(earlier.id == told.id for earlier in all_told(self.book.steps)):
             raise WrongUse(f"{told.id} was told before: what is told has a name of its own")
         return self._append(Step("told", told=told), self._moved(events, 1))
 
     def forget(
         self, name: str, rulebook: Rulebook, notes: PupilNotes, events: tuple[Event, ...]
     ) -> Skillbook:
-        """Stores that something told does not count any more, and what the pupil makes of the rest."""
+        """Stores that something told does not count any more, and what the pupil makes of the rest.
+
+        Raises `WrongUse` where nothing of that name counts.
+        """
+        steps = self.book.steps
+        if name in forgotten(steps) or all(told.id != name for told in all_told(steps)):
+            raise WrongUse(f"{name} was never told, or is forgotten already")
         after = replace(rulebook, events=self._moved(events).events)
         return self._append(Step("forgotten", note=name), after, notes)
 
@@ -107,10 +80,7 @@ class Ledger:
 
     def _append(self, step: Step, rulebook: Rulebook, notes: PupilNotes | None = None) -> Skillbook:
         """The book with one more step, once it is on the disk."""
-        before = self.book.rulebook
-        known = len(before.events)
-        if rulebook.events[:known] != before.events:
-            raise WrongUse(f"what was learned does not go on from what {self.path} holds")
+        known = len(self.book.rulebook.events)
         if len(rulebook.events) > MAX_EVENTS:
             raise WrongUse(f"a skillbook holds at most {MAX_EVENTS} events")
         step = replace(step, events=rulebook.events[known:])

@@ -12,10 +12,11 @@ from pathlib import Path
 
 from gaitwright.bench.context import Context
 from gaitwright.bench.evidence.children import ChildFailed
-from gaitwright.bench.evidence.learner import LESSONS, begun, lesson_of, taught
+from gaitwright.bench.evidence.learner import LESSONS, begun, lesson_of, rules_of
 from gaitwright.bench.measurement import Figure, at_most, count
 from gaitwright.errors import BadFile
 from gaitwright.skillbook.book import Skillbook
+from gaitwright.skillbook.history import all_told
 
 KILLS = 200
 LATEST = 0.25
@@ -28,7 +29,7 @@ NOTE = (
 
 @dataclass
 class Tally:
-    """What became of the kills so far."""
+    """What became of the kills so far; `same` are books that hold what an unkilled one would."""
 
     runs: int = 0
     kills: int = 0
@@ -36,6 +37,9 @@ class Tally:
     same: int = 0
     lessons: int = 0
     lost: int = 0
+    books: int = 0
+    alike: int = 0
+    """Of the books, those whose rules at the end are those of a pupil whom nobody killed."""
     longest_ms: float = 0.0
     first: str = ""
 
@@ -63,19 +67,22 @@ def measure(context: Context) -> Iterator[Figure]:
     )
     yield count("runs after which the book loads", tally.kept, tally.runs, 1.0, tally.first, numbers)
     yield count(
-        "runs that leave the book of an unkilled one", tally.same, tally.runs, 1.0, tally.first, numbers
+        "runs that leave the lessons of an unkilled one", tally.same, tally.runs, 1.0, tally.first, numbers
     )
+    what = "books that end with the rules of an unkilled pupil"
+    yield count(what, tally.alike, tally.books, 1.0, tally.first, numbers)
     yield Figure("a lesson durable, longest", tally.longest_ms, "ms", at_most(100.0), tally.lessons)
 
 
 def kill_through(path: Path, seed: int, wanted: int, tally: Tally) -> None:
-    """Teaches one book to its end through kill after kill, and compares it with the book without any."""
-    whole = begun()
-    whole.save(path)
+    """Teaches one book to its end through kill after kill, and compares it with a book without any."""
+    book = begun()
+    book.save(path)
     moments = random.Random(f"moments {seed}")
-    done = 0
-    while tally.kills < wanted and done < LESSONS:
-        acknowledged, killed = learn_and_kill(path, seed, moments.uniform(0.0, LATEST), tally)
+    done, killed = 0, True
+    while killed:
+        after = moments.uniform(0.0, LATEST) if tally.kills < wanted else None
+        acknowledged, killed = learn_and_kill(path, seed, after, tally)
         tally.kills += killed
         tally.runs += 1
         try:
@@ -84,30 +91,33 @@ def kill_through(path: Path, seed: int, wanted: int, tally: Tally) -> None:
             tally.lost += acknowledged
             tally.first = tally.first or str(error)
             return
+        told = all_told(book.steps)
         tally.kept += 1
-        stored = len(book.steps) - 1
-        tally.lost += max(0, acknowledged - stored)
-        for place in range(done, stored):
-            whole = taught(whole, lesson_of(seed, place))
-        tally.same += book == whole
-        if book != whole:
-            tally.first = tally.first or f"seed {seed}: another book after lesson {stored}"
+        tally.lost += max(0, acknowledged - len(told))
+        if told != [lesson_of(seed, place) for place in range(len(told))]:
+            tally.first = tally.first or f"seed {seed}: other lessons than an unkilled one has"
             return
-        tally.lessons += stored - done
-        done = stored
+        tally.same += 1
+        tally.lessons += len(told) - done
+        done = len(told)
+    tally.books += 1
+    tally.alike += done == LESSONS and book.rulebook.rules == rules_of(seed)
+    if tally.alike < tally.books:
+        tally.first = tally.first or f"seed {seed}: other rules at the end than an unkilled one has"
 
 
-def learn_and_kill(path: Path, seed: int, after: float, tally: Tally) -> tuple[int, bool]:
-    """Starts a learner and kills it so long after it began; how many lessons it acknowledged in all so far,
-    and whether the kill came before its end."""
+def learn_and_kill(path: Path, seed: int, after: float | None, tally: Tally) -> tuple[int, bool]:
+    """Starts a learner and kills it so long after it began [s], or never; how many lessons it acknowledged in
+    all so far, and whether the kill came before its end."""
     command = [sys.executable, "-m", "gaitwright.bench.evidence.learner", str(path), str(seed)]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as child:
         assert child.stdin is not None and child.stdout is not None
         child.stdout.readline()  # imported, and about to open the book
         child.stdin.write("learn\n")
         child.stdin.flush()
-        time.sleep(after)
-        child.send_signal(signal.SIGKILL)
+        if after is not None:
+            time.sleep(after)
+            child.send_signal(signal.SIGKILL)
         lines = [
             line.split() for line in child.stdout.read().splitlines(keepends=True) if line.endswith("\n")
         ]

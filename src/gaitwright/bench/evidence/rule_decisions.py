@@ -2,16 +2,17 @@
 
 import gc
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from time import perf_counter_ns
 
 import numpy as np
 
 from gaitwright.bench.context import Context
 from gaitwright.bench.evidence.clips_text import constructs, loops, symbols
-from gaitwright.bench.evidence.random_schools import RULES, TREES, RandomSchool, random_situation
+from gaitwright.bench.evidence.random_rulebooks import RULES, TREES, RandomRulebook, random_situation
 from gaitwright.bench.measurement import Figure, Wanted, at_least, at_most, count
 from gaitwright.bench.peers.rules_client import RulesPeer
+from gaitwright.description.load import load_robot
 from gaitwright.knowledge.compiled import Compiled, decide, decide_many
 from gaitwright.knowledge.consult import consult
 from gaitwright.knowledge.counterfactual import counterfactual
@@ -20,6 +21,10 @@ from gaitwright.knowledge.forest import Forest, Situation, replace_value
 from gaitwright.knowledge.memory import Fact, Memory
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.knowledge.trees import FeatureTree
+from gaitwright.learning.exam import held_out
+from gaitwright.learning.skill_pupil import SkillPupil, told_at
+from gaitwright.learning.teacher import teacher_for
+from gaitwright.skills.book_trees import in_trees_of
 
 SITUATIONS, QUICK_SITUATIONS = 1000, 200
 ROUNDS, QUICK_ROUNDS = 40, 5
@@ -27,6 +32,8 @@ PASSES = 3
 """Of so many passes over all situations a round takes the best, of ours and of CLIPS's alike."""
 REPLAYS, QUICK_REPLAYS = 1000, 100
 EXPLAINED, QUICK_EXPLAINED = 200, 20
+LESSONS, QUICK_LESSONS = 300, 40
+"""What the pupil was told whose rules are explained."""
 SIZE = f"{RULES} rules × {TREES} trees"
 
 
@@ -46,11 +53,11 @@ class Asked:
 
 def asked(seed: int, number: int) -> Asked:
     """A random rulebook and so many situations, drawn by the seed."""
-    school = RandomSchool(seed)
-    forest, drawn = school.forest, school.held_out(seed, number)
+    drawn_by = RandomRulebook(seed)
+    forest, drawn = drawn_by.forest, drawn_by.asked(seed, number)
     return Asked(
-        school.truth,
-        school.table,
+        drawn_by.book,
+        drawn_by.compiled,
         tuple(drawn),
         np.array([forest.leaf_places(situation) for situation in drawn]),
         tuple({tree: str(value) for tree, value in situation.items()} for situation in drawn),
@@ -190,8 +197,8 @@ def replays(seed: int, number: int) -> Iterator[tuple[bool | None, int]]:
 
     The change is made value by value, as a reader of the sentence would, and decided by plain consultation.
     """
-    school = RandomSchool(seed)
-    book, rng, table = school.truth, np.random.default_rng([seed, 2]), school.table
+    drawn = RandomRulebook(seed)
+    book, rng, table = drawn.book, np.random.default_rng([seed, 2]), drawn.compiled
     for k in range(number):
         rule = book.rules[int(rng.integers(len(book.rules)))]
         situation = random_situation(rng, book.forest, rule)
@@ -211,18 +218,28 @@ def replays(seed: int, number: int) -> Iterator[tuple[bool | None, int]]:
 def explaining(context: Context) -> Iterator[Figure]:
     """How long one explanation takes: why, why not another, the smallest changes, a rule's history."""
     context.voice.say("rules: explanations")
-    number = QUICK_EXPLAINED if context.quick else EXPLAINED
-    school = RandomSchool(context.seed)
-    book, _ = school.demonstrate(1 if context.quick else 3)
+    lessons, number = (QUICK_LESSONS, QUICK_EXPLAINED) if context.quick else (LESSONS, EXPLAINED)
+    book, asked_of = learned(context.seed, lessons, number)
     took = []
-    for situation in school.held_out(context.seed, number):
+    for situation in asked_of:
         began = perf_counter_ns()
         explain(book, situation)
         took.append((perf_counter_ns() - began) / 1e6)
     numbers = {"each_ms": took, "slowest_ms": max(took)}
-    note = f"median {np.median(took):.1f} ms, slowest {max(took):.1f} ms"
-    what = f"one explanation, {SIZE}: 95th percentile"
+    size = f"{len(book.rules)} rules × {len(book.forest.trees)} trees, {len(book.events)} events"
+    note = f"{size}; median {np.median(took):.1f} ms, slowest {max(took):.1f} ms"
+    what = "one explanation of a book from a robot's school: 95th percentile"
     yield Figure(what, float(np.percentile(took, 95)), "ms", at_most(50.0), number, note, numbers)
+
+
+def learned(seed: int, lessons: int, number: int) -> tuple[Rulebook, list[Situation]]:
+    """The rulebook of a pupil of skills with its history, and so many other situations to explain it in."""
+    robot = load_robot("go2")
+    teacher, pupil = teacher_for(robot), SkillPupil(seed)
+    moments = held_out(robot, teacher, seed, lessons + number)
+    events = [pupil.hear(told_at(m, teacher.ideal(m.raw), m.id)).events for m in moments[:lessons]]
+    book = replace(pupil.rulebook(), events=tuple(event for moved in events for event in moved))
+    return book, [in_trees_of(book, m.situation, m.raw) for m in moments[lessons:]]
 
 
 def explain(book: Rulebook, situation: Situation) -> list[str]:

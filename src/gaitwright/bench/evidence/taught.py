@@ -9,7 +9,7 @@ from time import perf_counter, thread_time
 import numpy as np
 
 from gaitwright.bench.evidence.driven import pupil_drives, trip
-from gaitwright.bench.peers.rules_client import TEACHERS, RulesPeer
+from gaitwright.bench.peers.rules_client import RulesPeer
 from gaitwright.bench.teachers import BenchTeacher, Facts
 from gaitwright.bench.trial import robot_named
 from gaitwright.induction.cases import NOBODY
@@ -208,7 +208,7 @@ def others(
         "said": [said for _, said in heard],
         "exams": [{"labels": s.labels, "asked": rows_of(s.asked), "right": s.right} for s in sittings],
     }
-    with RulesPeer("sklearn", problem, TEACHERS, PEER_TIMEOUT_S) as peer:
+    with RulesPeer("sklearn", problem, PEER_TIMEOUT_S) as peer:
         return peer.greeting.get("shares", {}), peer.reason or ""
 
 

@@ -29,6 +29,7 @@ from gaitwright.gait.leg_cycles.check import check_cycle
 from gaitwright.gait.leg_cycles.files import load_cycle
 from gaitwright.ground.scene import load_scene
 from gaitwright.knowledge.json_form import loads
+from gaitwright.learning.notes import relearned
 from gaitwright.navigation.navigator import Navigator
 from gaitwright.navigation.visibility import shortest_path
 from gaitwright.perception.known_ground import map_of
@@ -83,8 +84,9 @@ def take_skillbook(path: Path) -> None:
 
 
 def take_text(path: Path) -> None:
+    """Read, and its lessons heard again."""
     book = import_text(path.read_bytes().decode(errors="surrogateescape"), path.name)
-    book.replayed()
+    relearned(book)
 
 
 def take_rulebook(path: Path) -> None:
@@ -214,12 +216,14 @@ COMMANDS: tuple[tuple[str, ...], ...] = (
     ("scenes", "--json", "-"),
     ("robots", "--json", "robots.json"),
     ("explain", "sound.skills", "--rule", "trot"),
-    ("explain", "sound.skills", "--situation", "ground=flat", "slope=0.1", "--not", "climb"),
+    ("explain", "sound.skills", "--situation", "road=flat", "pace=0.4", "--not", "climb"),
     ("explain", "sound.skills", "--history", "trot", "--json", "-"),
     ("explain", "sound.skills", "--recording", "sound.npz", "--at", "0.02"),
     ("books", "export", "sound.skills", "--out", "text.txt"),
     ("books", "import", "sound.txt", "--out", "again.skills"),
     ("books", "merge", "sound.skills", "sound.skills", "--out", "both.skills"),
+    ("books", "confirm", "sound.skills", "nothing"),
+    ("books", "forget", "sound.skills", "nothing"),
     ("bench", "walks", "--nothing"),
     ("reproduce", "nothing", "--out", "there"),
     ("teach", "--robot", "nothing", "--out", "new.skills", "--trips", "1"),

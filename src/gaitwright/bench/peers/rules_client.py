@@ -10,9 +10,10 @@ from gaitwright.bench.peers.environment import PeerUnavailable, peer_python
 from gaitwright.bench.peers.script import Script
 
 TIMEOUT_S = 120.0
-SCRIPTS = {name: Path(__file__).with_name(f"{name}_rules.py") for name in ("clips", "sklearn")}
-TEACHERS = Path(__file__).with_name("sklearn_teachers.py")
-"""Another script of scikit-learn's: what it learns from the labels of test teachers."""
+SCRIPTS = {
+    "clips": Path(__file__).with_name("clips_rules.py"),
+    "sklearn": Path(__file__).with_name("sklearn_teachers.py"),
+}
 
 
 class RulesPeer:
@@ -22,12 +23,11 @@ class RulesPeer:
         self,
         name: str,
         problem: Mapping[str, Any],
-        script: Path | None = None,
         timeout_s: float = TIMEOUT_S,
     ) -> None:
-        """`script`: another one than the peer's own; `timeout_s`: how long an answer may take [s]."""
+        """`timeout_s`: how long an answer may take [s]."""
         self.name, self.problem = name, problem
-        self.script, self.timeout_s = script or SCRIPTS[name], timeout_s
+        self.script, self.timeout_s = SCRIPTS[name], timeout_s
         self.reason: str | None = None
         self.greeting: dict = {}
         self._script: Script | None = None

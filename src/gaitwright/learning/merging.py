@@ -1,0 +1,215 @@
+"""Two skillbooks that went apart, made one: what theirs was told since is told to our pupil."""
+
+from collections.abc import Hashable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gaitwright.errors import WrongUse
+from gaitwright.knowledge.memory import Action
+from gaitwright.knowledge.told import Told
+from gaitwright.learning.notes import pupil_of, with_steps
+from gaitwright.learning.older_books import told_by
+from gaitwright.learning.skill_pupil import SkillPupil
+from gaitwright.skillbook.book import Skillbook, content_hash
+from gaitwright.skillbook.history import Ancestor, Step, all_told, forgotten, free_name
+from gaitwright.skills.vocabulary import VOCABULARY
+
+
+@dataclass(frozen=True, slots=True)
+class Conflict:
+    """What the joined book does not do as a book was told: `rule` as that one's teacher calls it, `ours` and
+    `theirs` the names of the lessons that speak of it, in their own books."""
+
+    rule: str
+    ours: tuple[str, ...]
+    theirs: tuple[str, ...]
+    sentence: str
+
+
+@dataclass(frozen=True, slots=True)
+class Merged:
+    """The joined book, and every sentence on what it does not do as one of the two was told."""
+
+    book: Skillbook
+    conflicts: tuple[Conflict, ...] = ()
+
+
+def merge(ours: Skillbook, theirs: Skillbook, base: Skillbook | None = None) -> Merged:
+    """Our book with what theirs was told since they went apart, and without what theirs forgot.
+
+    Where both were told different things at the very same moment ours stays. Whatever either was told since
+    then and does by itself, the joined book does too, or a conflict says what it does instead. `base` is the
+    book that both come from; it is found without being named, and checked where it is. Raises `WrongUse`
+    where it is no such book, or for a book whose rules rest on no lessons that can be told.
+    """
+    both = shared_steps(ours, theirs)
+    if base is not None and shared_steps(base, ours) + shared_steps(base, theirs) < 2 * len(base.steps):
+        raise WrongUse(f"the books do not both go on from {base.name!r}")
+    if both == len(theirs.steps):
+        return Merged(ours)
+    if both == len(ours.steps):  # nothing was told to ours since: theirs goes on from it
+        went_on = replace(ours, rulebook=theirs.rulebook, steps=theirs.steps, pupil=theirs.pupil)
+        return Merged(replace(went_on, ancestors=with_ancestor(ours.ancestors, theirs)))
+    joining = Joining(ours, theirs)
+    if not joining.news:
+        return Merged(ours)
+    merged = joining.joined()
+    if not joining.steps:
+        return Merged(ours, merged.conflicts)
+    ancestors = with_ancestor(with_ancestor(ours.ancestors, ours), theirs)
+    return Merged(replace(merged.book, ancestors=ancestors), merged.conflicts)
+
+
+class Joining:
+    """Two books on their way to one: our pupil hears what theirs was told, step by step."""
+
+    def __init__(self, ours: Skillbook, theirs: Skillbook) -> None:
+        self.ours, self.theirs = told_again(ours), told_again(theirs)
+        self.shared = shared_steps(self.ours, self.theirs)
+        self.our_name = f"{ours.name} (ours)" if ours.name else "our book"
+        self.their_name = (
+            theirs.name if theirs.name not in ("", ours.name) else f"the other {theirs.name or 'book'}"
+        )
+        self.mine, self.other = (told_since(book, self.shared) for book in (self.ours, self.theirs))
+        self.at = {moment_of(told): told for told in self.mine}
+        """What ours was told last at each moment, since they went apart."""
+        self.steps: list[Step] = []
+        """What is added to ours."""
+        self.taken = {told.id for told in all_told(self.ours.steps)}
+        self.opposed: dict[str, Conflict] = {}
+        """By the names, in theirs, of lessons that ours was told otherwise."""
+        self.news = self.found_news()
+
+    def found_news(self) -> list[Step]:
+        """The steps of theirs that ours has not been through: told and still counting there, or forgotten of
+        what both were told."""
+        gone, ours_gone = forgotten(self.theirs.steps), forgotten(self.ours.steps)
+        both = {told.id for told in all_told(self.ours.steps[: self.shared])} - ours_gone
+        kept = [told for told in all_told(self.ours.steps) if told.id not in ours_gone | (gone & both)]
+        known = {key_of(told) for told in kept}
+        return [
+            step
+            for step in self.theirs.steps[self.shared :]
+            if (step.told is not None and step.told.id not in gone and key_of(step.told) not in known)
+            or (step.how == "forgotten" and step.note in both)
+        ]
+
+    def joined(self) -> Merged:
+        """The joined book, without steps of its own where all that is new stands against what ours was
+        told."""
+        pupil = pupil_of(self.ours)
+        mine, other = followed(pupil, self.mine), followed(pupil_of(self.theirs), self.other)
+        for step in self.news:
+            self.take(pupil, step)
+        known = {key_of(told) for told in mine}
+        other = [told for told in other if told.id not in self.opposed and key_of(told) not in known]
+        conflicts = (*self.opposed.values(), *self.lost(pupil, mine, True), *self.lost(pupil, other, False))
+        return Merged(with_steps(self.ours, pupil, self.steps), conflicts)
+
+    def take(self, pupil: SkillPupil, step: Step) -> None:
+        """Takes one of their steps, unless ours was told otherwise at the very same moment."""
+        told = step.told
+        if told is None:
+            self.steps.append(replace(step, events=pupil.forget(step.note)))
+            return
+        other = self.at.get(moment_of(told))
+        if other is not None and other.action != told.action:
+            self.opposed[told.id] = self.opposition(other, told)
+            return
+        if told.id in self.taken:
+            told = replace(told, id=free_name(f"{told.id} of {self.their_name}", self.taken))
+        self.taken.add(told.id)
+        self.steps.append(Step("told", told=told, events=pupil.hear(told).events))
+
+    def opposition(self, mine: Told, other: Told) -> Conflict:
+        """That both were told different things at the very same moment."""
+        ours, theirs = mine.rule, other.rule
+        if ours == theirs:
+            ours, theirs = action_text(mine.action), action_text(other.action)
+        sentence = (
+            f"at one and the same moment {mine.id} of {self.our_name} teaches {ours} and {other.id} of "
+            f"{self.their_name} {theirs}: ours stays"
+        )
+        return Conflict(other.rule, (mine.id,), (other.id,), sentence)
+
+    def lost(self, pupil: SkillPupil, lessons: Sequence[Told], of_ours: bool) -> Iterator[Conflict]:
+        """A conflict for each of some lessons that the joined pupil does not follow."""
+        book = self.our_name if of_ours else self.their_name
+        for told, action in zip(lessons, decided(pupil, lessons), strict=True):
+            if action is not None and action != told.action:
+                instead = action.skill if action.skill != told.action.skill else action_text(action)
+                sentence = (
+                    f"{told.id} of {book} teaches {told.rule}, and the joined book does {instead} there"
+                )
+                names = ((told.id,), ()) if of_ours else ((), (told.id,))
+                yield Conflict(told.rule, *names, sentence)
+
+
+def told_again(book: Skillbook) -> Skillbook:
+    """An older book with its lessons told again, for a pupil to hear. Raises `WrongUse` where its rules rest
+    on no lessons that can be told."""
+    if all_told(book.steps):
+        return book
+    told = told_by(book)
+    if book.rulebook.rules and not told:
+        raise WrongUse(
+            f"the rules of {book.name or 'a book without a name'} rest on no lessons with measurements: "
+            "nobody can be told them, so it cannot be joined with another"
+        )
+    rulebook = replace(book.rulebook, lessons=book.rulebook.lessons + len(told))
+    return replace(book, steps=(*book.steps, *(Step("told", told=one) for one in told)), rulebook=rulebook)
+
+
+# --- lessons ---------------------------------------------------------------------------------------
+def told_since(book: Skillbook, shared: int) -> list[Told]:
+    """What a book was told after its first steps, and has not forgotten."""
+    gone = forgotten(book.steps)
+    return [told for told in all_told(book.steps[shared:]) if told.id not in gone]
+
+
+def moment_of(told: Told) -> Hashable:
+    """All that was measured at a lesson's moment."""
+    return frozenset(told.facts.items())
+
+
+def key_of(told: Told) -> Hashable:
+    """What a lesson teaches, whatever it is called."""
+    return moment_of(told), told.action, told.about
+
+
+def followed(pupil: SkillPupil, lessons: Sequence[Told]) -> list[Told]:
+    """Those of some lessons at whose moments a pupil does what they say."""
+    done = decided(pupil, lessons)
+    return [told for told, action in zip(lessons, done, strict=True) if action == told.action]
+
+
+def decided(pupil: SkillPupil, lessons: Sequence[Told]) -> list[Action | None]:
+    """What a pupil does at the moments of some lessons; `None` before her first one."""
+    if not lessons or not pupil.told:
+        return [None] * len(lessons)
+    rows = np.array([VOCABULARY.row(told.facts) for told in lessons])
+    return [pupil.actions[action] for action in pupil.pupil.decide_all(rows.T)[0].tolist()]
+
+
+def action_text(action: Action) -> str:
+    """An action with its speeds and its condition."""
+    until = f" until {action.until}" if action.until else ""
+    return f"{action.skill} at {action.slowest:g} to {action.fastest:g} m/s{until}"
+
+
+# --- books -----------------------------------------------------------------------------------------
+def shared_steps(a: Skillbook, b: Skillbook) -> int:
+    """How many steps both begin with."""
+    count = 0
+    for mine, other in zip(a.steps, b.steps, strict=False):
+        if mine != other:
+            break
+        count += 1
+    return count
+
+
+def with_ancestor(ancestors: tuple[Ancestor, ...], book: Skillbook) -> tuple[Ancestor, ...]:
+    """The lineage with one more book, and with those that it came from."""
+    met = Ancestor("merged", book.name, content_hash(book))
+    return tuple(dict.fromkeys((*ancestors, *book.ancestors, met)))

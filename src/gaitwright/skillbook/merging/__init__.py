@@ -1,1 +1,0 @@
-"""Two skillbooks → one: nothing that either learned is lost."""
