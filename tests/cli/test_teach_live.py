@@ -129,6 +129,7 @@ def test_what_was_taught_drives_a_mission_elsewhere_and_is_explained(taught, tmp
     assert main(words) == 0
     told = " ".join(capsys.readouterr().out.split())
     assert "walk on ice, because the grip of the ground is under" in told
+    assert "trot would fire if the grip of the ground were at least" in told
 
 
 def test_a_recording_is_taught_at_too(taught, tmp_path, monkeypatch, capsys) -> None:

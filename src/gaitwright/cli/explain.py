@@ -34,7 +34,6 @@ from gaitwright.cli.situation_args import RECORDED, SAID, Asked, asked, said, wh
 from gaitwright.errors import WrongUse
 from gaitwright.knowledge.consult import Decision, consult
 from gaitwright.knowledge.explain import forest_text
-from gaitwright.knowledge.forest import Situation
 from gaitwright.knowledge.memory import Memory, remembered
 from gaitwright.knowledge.rules import Rulebook, status
 from gaitwright.screen import show
@@ -61,9 +60,9 @@ def run(args: Namespace) -> int:
     }
     aside, decision = args.json == "-", None
     if args.situation or args.recording or args.why_not:
-        at = situation_asked(rulebook, args, figures)
+        at, facts = situation_asked(rulebook, args, figures)
         decision = consult(rulebook, at.situation)
-        tell_decision(rulebook, at, decision, args.rule or args.why_not or "", figures, aside)
+        tell_decision(rulebook, at, facts, decision, args.rule or args.why_not or "", figures, aside)
     elif args.rule:
         tell_rule(rulebook, name, aside)
     elif not args.history:
@@ -114,36 +113,61 @@ def tell_history(rulebook: Rulebook, name: str, figures: dict, aside: bool) -> N
 
 
 # --- what it decides -------------------------------------------------------------------------------
-def situation_asked(rulebook: Rulebook, args: Namespace, figures: dict) -> Asked:
-    """The situation from the options; the moment it was recorded at goes to the figures."""
+def situation_asked(rulebook: Rulebook, args: Namespace, figures: dict) -> tuple[Asked, Memory]:
+    """The situation from the options, and the measurements behind it as far as there are some; the moment it
+    was recorded at goes to the figures."""
     facts: Memory = remembered({})
     if args.recording:
         moment = import_module("gaitwright.cli.recorded_moment")  # only now: it knows MuJoCo
         figures["at_s"], facts = moment.recorded_facts(args.recording, args.at)
-    at = asked(rulebook, said(args.situation or (), rulebook.forest), facts, taught_in(args.book, rulebook))
+    told = {one.id: one for one in reversed(told_in(args.book))}
+    skills = import_module("gaitwright.skills.book_trees") if told else None
+    taught = [(name, skills.situation_told(rulebook, one)) for name, one in told.items()] if skills else []
+    at = asked(rulebook, said(args.situation or (), rulebook.forest), facts, taught)
     if args.recording and not any((tree.source or tree.name) in facts for tree in rulebook.forest.trees):
         raise WrongUse(
             f"{args.recording} tells {', '.join(facts)}, and of these no tree reads one; "
             f"the trees are {', '.join(rulebook.forest.names)}"
         )
-    return at
+    if args.recording and not args.situation:
+        return at, facts
+    same = next((told[name].facts for name, situation in taught if situation == at.situation), None)
+    return at, remembered(same or {})
 
 
-def taught_in(path: str, rulebook: Rulebook) -> list[tuple[str, Situation]]:
-    """What a pupil was told in a skillbook, the last first: names of lessons, and the situations."""
-    told = told_in(path)
-    if not told:
-        return []
-    skills = import_module("gaitwright.skills.book_trees")
-    return [(one.id, skills.situation_told(rulebook, one)) for one in reversed(told)]
+def different_facts(rulebook: Rulebook, at: Asked, facts: Memory, names: list[str]) -> list[dict]:
+    """What would have to be different: in the measurements where there are some that a rule may go by, else
+    in the values of the trees."""
+    if "doing" not in facts or "slope" not in facts:
+        return [counterfactual_figures(change) for _, change in changes(rulebook, at.situation, names)]
+    what_if = import_module("gaitwright.skills.what_if").what_if
+    first = what_if(rulebook, facts)
+    found = [first, *(what_if(rulebook, facts, name) for name in names if name != first.rule)]
+    return [
+        {
+            "sentence": answer.sentence,
+            "changes": [{"tree": c.fact, "before": c.before, "after": c.after} for c in answer.changes],
+            "tried": answer.rule or None,
+        }
+        for answer in found
+    ]
 
 
-def tell_decision(
-    rulebook: Rulebook, at: Asked, decision: Decision, name: str, figures: dict, aside: bool
+def tell_decision(  # noqa: PLR0913 - all that is told of a decision
+    rulebook: Rulebook,
+    at: Asked,
+    facts: Memory,
+    decision: Decision,
+    name: str,
+    figures: dict,
+    aside: bool,
 ) -> None:
     """Why, why not, what would have to be different, and which lessons are behind it."""
     names = others(rulebook, decision, "" if name == decision.rule else name)
-    against, different = reasons_against(rulebook, decision, names), changes(rulebook, at.situation, names)
+    against, different = (
+        reasons_against(rulebook, decision, names),
+        different_facts(rulebook, at, facts, names),
+    )
     marks = [] if decision.rule is None else list(movers(rulebook, rulebook[decision.rule], at.situation))
     left_open = whatever(rulebook, at) if at.open else ""
     figures |= {
@@ -154,7 +178,7 @@ def tell_decision(
         "could_fire": decision.conflict,
         "because": because(rulebook, decision),
         "why_not": dict(against),
-        "counterfactuals": [counterfactual_figures(change) for _, change in different],
+        "counterfactuals": different,
         "marks": [dict(zip(MARKS_KEYS, row, strict=True)) for row in marks],
     }
     if aside:
@@ -165,7 +189,7 @@ def tell_decision(
     section("why not another", [sentence for _, sentence in against])
     section(
         "what would have to be different (each change was tried)",
-        [f"{change.sentence}." for _, change in different],
+        [f"{change['sentence']}." for change in different],
     )
     if marks:
         show_heading(f"marks of {decision.rule}")

@@ -18,6 +18,7 @@ from gaitwright.learning.skill_pupil import facts_of, kind_of
 from gaitwright.model.robot import Robot
 from gaitwright.skills.book_trees import in_trees_of
 from gaitwright.skills.vocabulary import VOCABULARY
+from gaitwright.skills.what_if import what_if
 
 AT_ONCE = 10.0
 """`go` goes on so long at most, unless a time is named [s]."""
@@ -180,6 +181,8 @@ class Room:
         decision = consult(book, situation)
         sentence = because(book, decision)
         show_prose(sentence if sentence.endswith(".") else f"{sentence}.")
+        if decision.rule is not None:
+            show_prose(f"{what_if(book, facts_of(moment)).sentence}.")
 
     def look(self, words: list[str]) -> None:
         facts = facts_of(self.source.here().moment)

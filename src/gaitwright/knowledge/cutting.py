@@ -56,8 +56,9 @@ def run_of(tree: FeatureTree, low: float, high: float) -> int:
 
 def spoken(tree: FeatureTree, mark: str) -> str:
     """A mark as a person says it: "the road is flat", "the way left is under 0.4 body lengths"."""
-    if is_word(tree, mark):
-        return f"{tree.about or f'{tree.name} is'} {mark}"
+    if is_word(tree, mark):  # "the speed is a walking pace", but "the speed is slow"
+        about = tree.about or f"{tree.name} is"
+        return f"{about if tree.is_leaf(mark) else about.removesuffix(' a')} {mark}"
     return f"{subject(tree)} {value_text(tree, mark)}"
 
 

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Int
+from jaxtyping import Bool, Int
 
 from gaitwright.induction.cases import Cases
 from gaitwright.induction.columns import Column, Vocabulary
@@ -56,7 +56,7 @@ def expressed(
     numbers = number_columns(vocabulary, wording)
     sets = leaf_sets(forest, cases, numbers, taught.instances)
     rules: list[Rule] = []
-    for r, name in enumerate(rule_names(lines, standing, taught.names)):
+    for r, name in enumerate(rule_names(lines, standing.fire, standing.right, taught.names)):
         mine = np.flatnonzero(standing.right & (standing.fire == r)).tolist()
         if not name:
             continue
@@ -221,14 +221,16 @@ def choice_of(forest: Forest, rule: Rule, wrong: Instance) -> Choice:
     return Choice(out[0], tuple(out[1:])) if out else Choice("")
 
 
-def rule_names(lines: Lines, standing: Standing, names: Sequence[str]) -> list[str]:
+def rule_names(
+    lines: Lines, fire: Int[np.ndarray, " cases"], right: Bool[np.ndarray, " cases"], names: Sequence[str]
+) -> list[str]:
     """What each rule of a list is called, the last line included; that has no name where it was never right.
 
-    `names` are what the teacher called the rule, case by case.
+    By case: the rule that decides it, whether that is right, and what the teacher called the rule.
     """
     found: list[str] = []
     for r in range(len(lines.rules) + 1):
-        mine = np.flatnonzero(standing.right & (standing.fire == r)).tolist()
+        mine = np.flatnonzero(right & (fire == r)).tolist()
         is_one = mine or r < len(lines.rules)
         found.append(name_for([names[k] for k in mine], found) if is_one else "")
     return found

@@ -102,15 +102,16 @@ class SkillPupil:
         A reason that is no fact of the vocabulary counts as none.
         """
         self.note(told)
-        before = self.stage()
+        fire, right = self.pupil.standing.fire, self.pupil.standing.right
         heard = self.pupil.hear(self.lesson_of(told))
+        before = [one.rule for one in self.told]
         self.told.append(told)
         self.instances.append(instance_of(told))
         if heard.before == heard.after:
             return Taken(heard, ())
-        fire = np.append(before.fire, heard.verdict.rule)
-        events = differences(replace(before, fire=fire), self.stage(), told.id, VOCABULARY, WORDING)
-        return Taken(heard, events)
+        names = rule_names(heard.before, fire, right, before)
+        stage = Stage(heard.before, np.append(fire, heard.verdict.rule), names)
+        return Taken(heard, differences(stage, self.stage(), told.id, VOCABULARY, WORDING))
 
     def forget(self, name: str) -> tuple[Event, ...]:
         """Takes back what was told under a name; what that moved. Raises `WrongUse` where nothing was."""
@@ -144,8 +145,8 @@ class SkillPupil:
     def stage(self) -> Stage:
         """The list as it is, with what its rules are called."""
         pupil = self.pupil
-        names = rule_names(pupil.lines, pupil.standing, [told.rule for told in self.told])
-        return Stage(pupil.lines, pupil.standing.fire, names)
+        fire, right = pupil.standing.fire, pupil.standing.right
+        return Stage(pupil.lines, fire, rule_names(pupil.lines, fire, right, [one.rule for one in self.told]))
 
     def rulebook(self) -> Rulebook:
         """What was learned, as rules over feature trees."""
