@@ -20,6 +20,7 @@ from gaitwright.signals import Measured, Mission, MotorCommand, Route, Sensed
 from gaitwright.skills import library, situation
 from gaitwright.skills.chooser import fixed_skill
 from gaitwright.skills.library import Skill
+from gaitwright.skills.measured import measured
 from oracles import robot_called
 
 ROOT = Path(__file__).parents[1]
@@ -118,7 +119,7 @@ def test_a_feature_of_rules_is_a_tree_of_the_forest(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(situation, "FOREST", Forest((*situation.FOREST.trees, hurry)))
     sensed = MujocoPlant(GO2, FLAT).reset(vary=False)
     for speed, leaf in ((0.2, "calm"), (0.8, "hurried")):
-        raw = situation.measured(GO2, Route(((3.0, 0.0),), 3.0, speed), sensed)
+        raw = measured(GO2, Route(((3.0, 0.0),), 3.0, speed), sensed)
         assert situation.named(raw)["hurry"] == leaf
 
 

@@ -123,7 +123,7 @@ def test_other_learners_see_what_the_pupil_sees(moments):
     assert {len(row) for row in rows["columns"]} == {len(VOCABULARY.columns)}
     assert {len(row) for row in rows["numbers"]} == {len(VOCABULARY.names) - 1 + 5}
     assert {sum(row[-5:]) for row in rows["numbers"]} == {1.0}
-    assert rules_client.TEACHERS.is_file()
+    assert rules_client.SCRIPTS["sklearn"].is_file()
 
 
 def test_the_claim_is_measured_and_tells_what_is_missing(no_peer, monkeypatch):

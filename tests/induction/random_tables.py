@@ -103,7 +103,8 @@ def bits_by_hand(lines: Lines, cases: Cases) -> float:
         bits += math.log2(actions + 1) + 2.0
         for bound in rule.bounds:
             known = cases.named[rule.action, bound.column]
-            bits += (1.0 if known else math.log2(columns) + 1.0) + cases.price[bound.column]
+            free = 4.0 if cases.price[bound.column] >= 2.0 else 1.0
+            bits += (free if known else math.log2(columns) + 1.0) + cases.price[bound.column]
             bits += 0.6 * doublings + 1.0
             if math.isfinite(bound.low) and math.isfinite(bound.high):
                 bits += doublings + 2.0

@@ -46,18 +46,20 @@ def test_the_tables_fulfil_the_order_conditions(method) -> None:
 
 
 @pytest.mark.parametrize(("integrator", "order"), [("euler", 1), ("semi-implicit", 1), ("rk4", 4)])
-@settings(max_examples=3)
+@settings(max_examples=2)
 @given(seed=st.integers(0, 10**6))
 def test_halving_the_step_divides_the_error_by_two_to_the_order(
     nine_links: Tree, integrator: str, order: int, seed: int
 ) -> None:
+    """Over a few motions: in a single one, terms of two orders may cancel."""
     system = floating(nine_links)
-    start = any_free_state(system, seed)
-    exact = integrated(system, start, "rk4", 0.0005, 0.2)
-    coarse, fine = (
-        np.abs(integrated(system, start, integrator, dt, 0.2) - exact).max() for dt in (0.02, 0.01)
-    )
-    assert math.log2(coarse / fine) == pytest.approx(order, abs=0.5)
+    errors = np.zeros(2)
+    for start in (any_free_state(system, seed + k) for k in range(4)):
+        exact = integrated(system, start, "rk4", 0.0005, 0.2)
+        errors += [
+            np.abs(integrated(system, start, integrator, dt, 0.2) - exact).max() for dt in (0.02, 0.01)
+        ]
+    assert math.log2(errors[0] / errors[1]) == pytest.approx(order, abs=0.5)
 
 
 # --- free motion ---------------------------------------------------------------------------------

@@ -25,7 +25,7 @@ from gaitwright.record.recording import Recorder, Recording, load
 from gaitwright.session import Session
 from gaitwright.signals import Mission
 from gaitwright.skills.measured import measured
-from gaitwright.skills.situation import named
+from gaitwright.skills.situation import FOREST, named
 
 ROBOT = load_robot("go2")
 posix = pytest.mark.skipif(os.name != "posix", reason="limits of a process are POSIX's")
@@ -173,7 +173,7 @@ def test_the_situation_of_a_recording_is_the_one_that_was_met(laps: list[Lap], f
     for tick in (1, 400, 1000, len(laps) - 1):
         lap, before = laps[tick], laps[tick - 1].call
         met = named(measured(ROBOT, lap.route, lap.sensed, before), before)
-        assert situation_at(filed, tick) == dict(met.items())
+        assert FOREST.read({}, situation_at(filed, tick)) == met
 
 
 def test_nobody_looked_is_recorded_as_such(laps: list[Lap]):

@@ -115,7 +115,6 @@ COMMANDS = {
         (
             "gaitwright books merge mine.skills yours.skills --out both.skills",
             "gaitwright books export mine.skills --out mine.txt     # without --out: to the standard output",
-            "gaitwright books import mine.txt --out again.skills",
             "gaitwright books confirm mine.skills walk-backward     # `books undo` takes it back",
         ),
     ),
