@@ -170,7 +170,7 @@ def add_teach(parser: argparse.ArgumentParser) -> None:
     )
     start = "go on from this skillbook, also an older one; it stays as it is (begin with no rules)"
     parser.add_argument("--from", dest="start", metavar="BOOK", help=start)
-    policy = "a teacher of your own: rules in order in a TOML file, see docs/rules.md (the scripted one)"
+    policy = "your own rules in order in a TOML file, see docs/teaching.md (the scripted teacher's)"
     parser.add_argument("--policy", metavar="FILE", help=policy)
     trips = "trips that the pupil drives with the teacher watching (40)"
     parser.add_argument("--trips", type=count, metavar="N", help=trips)

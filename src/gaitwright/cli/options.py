@@ -79,14 +79,15 @@ COMMANDS = {
         ),
     ),
     "teach": Command(
-        "the school: a scripted teacher makes a skillbook for a robot",
-        "A scripted teacher shows which skill she uses where, then lets the rules choose, trip after trip, "
-        "and steps in where they are wrong. Trips are situations along a way, without physics; what was "
-        "learned drives real ones. Every lesson is in the file before the next trip begins, and an interrupt "
-        "keeps it.",
+        "makes a skillbook for a robot: a school, or you in the middle of a mission",
+        "A pupil drives trip after trip; a scripted teacher, or your own rules (--policy), says what is "
+        "right where she is wrong or unsure. Trips are situations along a way, without physics; what was "
+        "learned drives real ones. With --live you are the teacher, on a mission in physics or on a "
+        "recording: stop, say what would be right, see what that changes, keep it or not. Every lesson is in "
+        "the file before the next, an interrupt keeps it, and the same command goes on.",
         (
-            "gaitwright teach --lesson skills --robot go2 --out go2.skills",
-            "gaitwright explain go2.skills",
+            "gaitwright teach --robot go2 --out go2.skills",
+            "gaitwright teach --live --scene slippery:0.3 --goal 4 0 --out go2.skills",
             "gaitwright mission --driver hybrid --skillbook go2.skills --scene stairs --goal 6.5 0",
         ),
     ),

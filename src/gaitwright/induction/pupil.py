@@ -169,7 +169,7 @@ class Pupil:
 
     def forget(self, case: int) -> None:
         """Takes a lesson out, as if it had never been heard, and with it what it alone was kept for."""
-        self._widest, before = None, self.lines
+        self._widest, before, rule = None, self.lines, int(self.standing.fire[case])
         rest = np.delete(np.arange(self.cases.n), case)
         old = self.cases
         table = table_of(old.x.T[rest], old.action[rest], old.reason[rest], old)
@@ -182,7 +182,7 @@ class Pupil:
         if not len(rest):
             self.lines, self.rivals, self.draft = Lines(), [], None
         else:
-            self.lines = lightened(self.lines, self.cases)
+            self.lines = lightened(self.lines, self.cases, rule)
             self.lines = settled(self.lines, self.cases, self.vocabulary.known, before)
         self.standing = standing_of(self.lines, self.cases, self.scene, self.since)
 

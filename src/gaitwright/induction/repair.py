@@ -53,17 +53,15 @@ def repaired(lines: Lines, cases: Cases, case: int) -> tuple[Lines, str]:
     return best, how
 
 
-def lightened(lines: Lines, cases: Cases) -> Lines:
-    """The list without what costs more than it saves, rules or single conditions, in the order it has."""
-    for r in range(len(lines.rules) - 1, -1, -1):
-        rule = lines.rules[r]
-        without = replace(lines, rules=(*lines.rules[:r], *lines.rules[r + 1 :]))
-        fewer = [
-            replace(rule, bounds=(*rule.bounds[:j], *rule.bounds[j + 1 :])) for j in range(len(rule.bounds))
-        ]
-        tried = [without, *(with_rule(lines, r, narrower) for narrower in fewer)]
-        lines = min([*tried, lines], key=lambda candidate: bits_of(candidate, cases))
-    return lines
+def lightened(lines: Lines, cases: Cases, r: int) -> Lines:
+    """The list without a rule, or without one of its conditions, where that costs more than it saves."""
+    if r == len(lines.rules):
+        return lines
+    rule = lines.rules[r]
+    without = replace(lines, rules=(*lines.rules[:r], *lines.rules[r + 1 :]))
+    fewer = [replace(rule, bounds=(*rule.bounds[:j], *rule.bounds[j + 1 :])) for j in range(len(rule.bounds))]
+    tried = [without, *(with_rule(lines, r, wider) for wider in fewer), lines]
+    return min(tried, key=lambda candidate: bits_of(candidate, cases))
 
 
 def bits_of(lines: Lines, cases: Cases) -> float:

@@ -1,7 +1,6 @@
 """What a person teaches at: a mission that runs, or one that was recorded; both are gone through in time."""
 
 from dataclasses import replace
-from typing import Protocol
 
 import numpy as np
 
@@ -22,34 +21,6 @@ from gaitwright.skills.situation import named
 
 EVERY = 0.2
 """Moments are looked at this often [s]."""
-
-
-class Source(Protocol):
-    """A mission gone through step by step."""
-
-    name: str
-
-    @property
-    def time(self) -> float:
-        """Where it is [s]."""
-        ...
-
-    @property
-    def over(self) -> str:
-        """Why it does not go on; empty while it does."""
-        ...
-
-    def go(self, seconds: float, until_change: bool) -> list[Seen]:
-        """On by so many seconds, or, where asked for, to where another skill is used; the moments passed."""
-        ...
-
-    def here(self) -> Seen:
-        """This moment."""
-        ...
-
-    def drive_by(self, rulebook: Rulebook) -> None:
-        """Other rules from here on."""
-        ...
 
 
 class Running:

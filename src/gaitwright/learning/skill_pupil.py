@@ -24,8 +24,9 @@ from gaitwright.skills.situation import situation_of
 from gaitwright.skills.vocabulary import VOCABULARY
 from gaitwright.skills.wording import WORDING
 
-WEIGHT: dict[Given, float] = {"corrected": STEPPED_IN, "by itself": STEPPED_IN, "by analogy": 0.5}
-"""How much a lesson counts by how it came (1): what was only concluded gives way to what is seen."""
+WEIGHT: dict[Given, float] = dict.fromkeys(("corrected", "by itself", "by analogy"), STEPPED_IN)
+"""How much a lesson counts by how it came (1). An analogy is told only where a person confirms it: she means
+it too."""
 
 
 @dataclass(frozen=True, slots=True)
