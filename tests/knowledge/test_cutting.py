@@ -72,6 +72,13 @@ def test_marks_are_spoken_of_by_name_or_by_numbers(low, high, says):
     assert range_of(cut, mark) == (low, high)
 
 
+def test_a_group_is_spoken_of_without_its_article():
+    paces = {"slow": ("creeping", "walking"), "fast": ()}
+    tree = interval_tree("pace", "m/s", (0.3, 1.0), paces, about="the speed is a")
+    assert spoken(cut_at(tree, (0.5,)), "slow") == "the speed is slow"
+    assert spoken(cut_at(tree, (0.5,)), "walking") == "the speed is a walking"
+
+
 def test_names_are_spoken_of_as_they_are():
     assert value_text(ROAD, "flat or stairs") == "flat or stairs"
     assert spoken(ROAD, "even") == "road is even"

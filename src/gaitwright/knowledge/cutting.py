@@ -58,7 +58,7 @@ def spoken(tree: FeatureTree, mark: str) -> str:
     """A mark as a person says it: "the road is flat", "the way left is under 0.4 body lengths"."""
     if is_word(tree, mark):  # "the speed is a walking pace", but "the speed is slow"
         about = tree.about or f"{tree.name} is"
-        return f"{about if tree.is_leaf(mark) else about.removesuffix(' a')} {mark}"
+        return f"{about.removesuffix(' a') if is_group(tree, mark) else about} {mark}"
     return f"{subject(tree)} {value_text(tree, mark)}"
 
 
@@ -84,6 +84,14 @@ def between(low: float, high: float, unit: str) -> str:
     if high == float("inf"):
         return f"at least {low:.4g}{unit}"
     return f"from {low:.4g} to {high:.4g}{unit}"
+
+
+def is_group(tree: FeatureTree, mark: str) -> bool:
+    """Whether a mark has others with names of their own right below it: "slow", but not a pace that was
+    cut."""
+    here = tree.place.get(mark)
+    below = [value for value, parent in zip(tree.values, tree.parents, strict=True) if parent == here]
+    return any(is_word(tree, value) for value in below)
 
 
 def is_word(tree: FeatureTree, mark: str) -> bool:
