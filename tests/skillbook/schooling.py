@@ -8,7 +8,8 @@ import numpy as np
 
 from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.told import Told
-from gaitwright.learning.notes import notes_of, with_steps
+from gaitwright.learning.notes import forget as forget_in  # noqa: F401 - found here with the others
+from gaitwright.learning.notes import notes_of, settle, with_steps  # noqa: F401
 from gaitwright.learning.skill_pupil import SkillPupil
 from gaitwright.skillbook import Ledger, Skillbook
 from gaitwright.skillbook.history import Step, all_told
@@ -72,17 +73,6 @@ def taught_skillbook(seed: int, lessons: int = 10) -> Skillbook:
 def tell_in(ledger: Ledger, pupil: SkillPupil, told: Told) -> None:
     """A lesson heard and stored."""
     ledger.tell(told, pupil.hear(told).events)
-
-
-def forget_in(ledger: Ledger, pupil: SkillPupil, name: str) -> None:
-    """A lesson forgotten, and that stored."""
-    events = pupil.forget(name)
-    ledger.forget(name, pupil.rulebook(), noted(ledger, pupil), events)
-
-
-def settle(ledger: Ledger, pupil: SkillPupil) -> None:
-    """The pupil's rules stored."""
-    ledger.settle(pupil.rulebook(), noted(ledger, pupil))
 
 
 def noted(ledger: Ledger, pupil: SkillPupil):

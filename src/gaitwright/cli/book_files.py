@@ -11,7 +11,7 @@ from gaitwright.knowledge.json_form import MAX_BYTES, loads
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.knowledge.told import Told
 from gaitwright.skillbook.book import Skillbook, content_hash
-from gaitwright.skillbook.history import all_told, forgotten
+from gaitwright.skillbook.history import that_count
 from gaitwright.skillbook.schema import MAX_BYTES as BOOK_BYTES
 
 SQLITE = b"SQLite format 3"
@@ -20,18 +20,16 @@ SQLITE = b"SQLite format 3"
 
 def rulebook_of(path: str) -> Rulebook:
     """The rulebook in a skillbook, or in a JSON file. Raises `BadFile` for a file that is none."""
+    return rules_and_lessons(path)[0]
+
+
+def rules_and_lessons(path: str) -> tuple[Rulebook, list[Told]]:
+    """The rulebook in a file, and what a pupil was told in it and still counts: nothing in a file with rules
+    alone. Raises `BadFile` for a file that is neither."""
     if is_skillbook(path):
-        return Skillbook.load(path).rulebook
-    return loads(content_of(path, "rulebook", MAX_BYTES), short(path))
-
-
-def told_in(path: str) -> list[Told]:
-    """What a pupil was told in a skillbook and still counts; nothing in a file with rules alone."""
-    if not is_skillbook(path):
-        return []
-    steps = Skillbook.load(path).steps
-    gone = forgotten(steps)
-    return [told for told in all_told(steps) if told.id not in gone]
+        book = Skillbook.load(path)
+        return book.rulebook, that_count(book.steps)
+    return loads(content_of(path, "rulebook", MAX_BYTES), short(path)), []
 
 
 def skillbook_of(path: str) -> Skillbook:

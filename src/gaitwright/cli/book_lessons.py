@@ -16,11 +16,11 @@ from gaitwright.knowledge.rules import Event
 from gaitwright.knowledge.told import Told
 from gaitwright.learning.analogies import proposal_of
 from gaitwright.learning.merging import decided
-from gaitwright.learning.notes import notes_of, pupil_of
+from gaitwright.learning.notes import forget as forget_in
+from gaitwright.learning.notes import pupil_of, settle
 from gaitwright.learning.skill_pupil import SkillPupil
 from gaitwright.skillbook.book import Skillbook
-from gaitwright.skillbook.history import all_told, free_name
-from gaitwright.skillbook.pupil_notes import PupilNotes
+from gaitwright.skillbook.history import all_told, free_name, names_told
 from gaitwright.skillbook.writer import Ledger, open_for_learning
 
 Rows = list[tuple[str, str]]
@@ -32,7 +32,7 @@ def confirm(args: Namespace) -> None:
     """Takes in what is proposed by analogy for a skill."""
     path, skill = args.files
     book, pupil = read(path)
-    taken = {told.id for told in all_told(book.steps)}
+    taken = names_told(book.steps)
     new = [replace(told, id=free_name(told.id, taken)) for told in proposal_of(pupil, skill).told]
     events = []
     with opened(path, book) as ledger, working(f"{path} takes in {skill}", worth_a_line=None):
@@ -40,7 +40,7 @@ def confirm(args: Namespace) -> None:
             moved = pupil.hear(told).events
             ledger.tell(told, moved)
             events += moved
-        ledger.settle(pupil.rulebook(), notes_on(pupil, ledger))
+        settle(ledger, pupil)
         done = Counter(action.skill for action in decided(pupil, new) if action is not None)
     decisions = ", ".join(f"{name} {number}" for name, number in done.most_common())
     rows = [
@@ -111,17 +111,10 @@ def forget_all(args: Namespace, book: Skillbook, pupil: SkillPupil, lessons: Seq
     what = lessons[0].id if len(lessons) == 1 else f"{len(lessons)} lessons that came together"
     with opened(path, book) as ledger, working(f"{path} forgets {what}", worth_a_line=None):
         for told in lessons:
-            moved = pupil.forget(told.id)
-            ledger.forget(told.id, pupil.rulebook(), notes_on(pupil, ledger), moved)
-            events += moved
+            events += forget_in(ledger, pupil, told.id)
     names = ", ".join(told.id for told in lessons[:SHOWN]) + (", …" if len(lessons) > SHOWN else "")
     rows = [("forgotten", names), *changes(events)]
     tell(args, ledger.book, f"{path} forgets {what}", rows, forgotten=lessons, events=events)
-
-
-def notes_on(pupil: SkillPupil, ledger: Ledger) -> PupilNotes:
-    """The notes on a pupil who has heard all that her book holds."""
-    return notes_of(pupil, len(all_told(ledger.book.steps)))
 
 
 def changes(events: Sequence[Event]) -> Rows:

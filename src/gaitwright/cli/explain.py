@@ -3,11 +3,12 @@
 import json
 import re
 from argparse import Namespace
+from collections.abc import Sequence
 from dataclasses import asdict
 from importlib import import_module
 from pathlib import Path
 
-from gaitwright.cli.book_files import rulebook_of, told_in
+from gaitwright.cli.book_files import rules_and_lessons
 from gaitwright.cli.console import (
     remark,
     show_heading,
@@ -36,6 +37,7 @@ from gaitwright.knowledge.consult import Decision, consult
 from gaitwright.knowledge.explain import forest_text
 from gaitwright.knowledge.memory import Memory, remembered
 from gaitwright.knowledge.rules import Rulebook, status
+from gaitwright.knowledge.told import Told
 from gaitwright.screen import show
 
 RULES = ("", "rule", "status", "right", "wrong", "it …")
@@ -48,7 +50,7 @@ def run(args: Namespace) -> int:
         args.out = import_module("gaitwright.cli.skills").check_picture(args.out)
     if args.at is not None and not args.recording:
         raise WrongUse("--at is a moment of a recording: name its file with --recording")
-    rulebook = rulebook_of(args.book)
+    rulebook, told = rules_and_lessons(args.book)
     name = args.rule or args.why_not or args.history or ""
     if name:
         rulebook[name]
@@ -60,7 +62,7 @@ def run(args: Namespace) -> int:
     }
     aside, decision = args.json == "-", None
     if args.situation or args.recording or args.why_not:
-        at, facts = situation_asked(rulebook, args, figures)
+        at, facts = situation_asked(rulebook, told, args, figures)
         decision = consult(rulebook, at.situation)
         tell_decision(rulebook, at, facts, decision, args.rule or args.why_not or "", figures, aside)
     elif args.rule:
@@ -113,16 +115,18 @@ def tell_history(rulebook: Rulebook, name: str, figures: dict, aside: bool) -> N
 
 
 # --- what it decides -------------------------------------------------------------------------------
-def situation_asked(rulebook: Rulebook, args: Namespace, figures: dict) -> tuple[Asked, Memory]:
+def situation_asked(
+    rulebook: Rulebook, told: Sequence[Told], args: Namespace, figures: dict
+) -> tuple[Asked, Memory]:
     """The situation from the options, and the measurements behind it as far as there are some; the moment it
     was recorded at goes to the figures."""
     facts: Memory = remembered({})
     if args.recording:
         moment = import_module("gaitwright.cli.recorded_moment")  # only now: it knows MuJoCo
         figures["at_s"], facts = moment.recorded_facts(args.recording, args.at)
-    told = {one.id: one for one in reversed(told_in(args.book))}
+    facts_at = {one.id: one.facts for one in reversed(told)}
     skills = import_module("gaitwright.skills.book_trees") if told else None
-    taught = [(name, skills.situation_told(rulebook, one)) for name, one in told.items()] if skills else []
+    taught = [(n, skills.situation_in(rulebook, f)) for n, f in facts_at.items()] if skills else []
     at = asked(rulebook, said(args.situation or (), rulebook.forest), facts, taught)
     if args.recording and not any((tree.source or tree.name) in facts for tree in rulebook.forest.trees):
         raise WrongUse(
@@ -131,8 +135,8 @@ def situation_asked(rulebook: Rulebook, args: Namespace, figures: dict) -> tuple
         )
     if args.recording and not args.situation:
         return at, facts
-    same = next((told[name].facts for name, situation in taught if situation == at.situation), None)
-    return at, remembered(same or {})
+    same = next((facts_at[name] for name, situation in taught if situation == at.situation), {})
+    return at, remembered(same)
 
 
 def different_facts(rulebook: Rulebook, at: Asked, facts: Memory, names: list[str]) -> list[dict]:
@@ -140,9 +144,8 @@ def different_facts(rulebook: Rulebook, at: Asked, facts: Memory, names: list[st
     in the values of the trees."""
     if "doing" not in facts or "slope" not in facts:
         return [counterfactual_figures(change) for _, change in changes(rulebook, at.situation, names)]
-    what_if = import_module("gaitwright.skills.what_if").what_if
-    first = what_if(rulebook, facts)
-    found = [first, *(what_if(rulebook, facts, name) for name in names if name != first.rule)]
+    first, *others = import_module("gaitwright.skills.what_if").what_ifs(rulebook, facts, ("", *names))
+    found = [first, *(answer for name, answer in zip(names, others, strict=True) if name != first.rule)]
     return [
         {
             "sentence": answer.sentence,

@@ -10,11 +10,11 @@ from gaitwright.errors import BadFile, GaitwrightError, WrongUse, unknown
 from gaitwright.knowledge.consult import consult
 from gaitwright.knowledge.explain import why_not
 from gaitwright.knowledge.memory import Action
-from gaitwright.knowledge.told import Told
 from gaitwright.learning.live import LiveLessons, Tried
 from gaitwright.learning.live_sources import Played, Running
 from gaitwright.learning.said_action import said_action
-from gaitwright.learning.skill_pupil import facts_of, kind_of
+from gaitwright.learning.skill_pupil import facts_of, kind_of, told_at
+from gaitwright.learning.teacher import Shown
 from gaitwright.model.robot import Robot
 from gaitwright.skills.book_trees import in_trees_of
 from gaitwright.skills.vocabulary import VOCABULARY
@@ -119,7 +119,7 @@ class Room:
         action = said_action(said.skill, self.robot, said.speed, said.until, self.lessons.pupil.actions)
         if said.about and said.about not in VOCABULARY.names:
             raise unknown("number", said.about, VOCABULARY.names)
-        self.try_out(action, said.name or self.name_of(action), said.about)
+        self.try_out(action, said.name or self.lessons.pupil.name_of(action), said.about)
 
     def ok(self, words: list[str]) -> None:
         """What the robot does is right."""
@@ -127,19 +127,14 @@ class Room:
         action = self.lessons.pupil.choose(seen.moment).action
         if action is None or action.skill != seen.skill:
             action = said_action(seen.skill, self.robot, known=self.lessons.pupil.actions)
-        self.try_out(action, self.name_of(action), "")
+        self.try_out(action, self.lessons.pupil.name_of(action), "")
         self.keep([])
-
-    def name_of(self, action: Action) -> str:
-        """What rules of an action were called so far, else its skill."""
-        names = [told.rule for told in self.lessons.pupil.told if kind_of(told.action) == kind_of(action)]
-        return names[-1] if names else action.skill
 
     def try_out(self, action: Action, name: str, about: str) -> None:
         seen = self.source.here()
         done = self.lessons.pupil.choose(seen.moment).action
         given = "confirmed" if done is not None and kind_of(done) == kind_of(action) else "corrected"
-        told = Told(seen.moment.id, facts_of(seen.moment), name, action, "", about, self.source.name, given)
+        told = told_at(seen.moment, Shown(name, action, about=about), self.source.name, given)
         self.tried = self.lessons.tried(told)
         tell_tried(self.tried, seen)
 

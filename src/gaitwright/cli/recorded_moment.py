@@ -7,7 +7,6 @@ from gaitwright.knowledge.memory import Fact, Memory, remembered
 from gaitwright.record.metrics import attitude
 from gaitwright.record.moment import call_at, route_at, sensed_at
 from gaitwright.record.recording import Recording, load
-from gaitwright.skills.library import LIBRARY, OTHER_NAMES
 from gaitwright.skills.measured import measured
 from gaitwright.skills.situation import named
 from gaitwright.skills.vocabulary import VOCABULARY
@@ -50,10 +49,7 @@ def situation_at(recording: Recording, tick: int) -> dict[str, Fact]:
     if route is None:
         return {}
     before = call_at(recording, max(0, tick - 1))  # what it had been doing when it chose
-    known = before.skill in LIBRARY or before.skill in OTHER_NAMES
-    sensed = sensed_at(recording, tick)
-    call = before if known else None
-    raw = measured(recording.robot, route, sensed, call)
-    leaves = {tree: leaf for tree, leaf in named(raw, call).items() if leaf is not None}
+    raw = measured(recording.robot, route, sensed_at(recording, tick), before)
+    leaves = {tree: leaf for tree, leaf in named(raw, before).items() if leaf is not None}
     numbers = {column.name: column.read(raw) for column in VOCABULARY.columns if not column.values}
     return {**leaves, **{tree: VOCABULARY.columns[k].read(raw) for tree, k in NUMBERS.items()}, **numbers}

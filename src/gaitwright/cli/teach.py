@@ -13,11 +13,11 @@ from gaitwright.cli.console import remark, show_pairs, working
 from gaitwright.cli.output import check_json, settled, write_json
 from gaitwright.cli.trips import find_robot
 from gaitwright.errors import WrongUse
-from gaitwright.knowledge.rules import Event, Rulebook, status
+from gaitwright.knowledge.rules import Rulebook, status
 from gaitwright.knowledge.told import Told
 from gaitwright.learning.analogies import proposals
 from gaitwright.learning.exam import Result, examined, held_out
-from gaitwright.learning.notes import notes_of, pupil_as_noted
+from gaitwright.learning.notes import pupil_as_noted, settle
 from gaitwright.learning.older_books import told_by
 from gaitwright.learning.policy_file import policy_in
 from gaitwright.learning.school import SchoolReport, attend, trip_of
@@ -46,6 +46,7 @@ def run(args: Namespace) -> int:
     is_new = not is_book_of(robot, path, args)
     if is_new:
         begun(robot, new_file(args.out, "skillbook").stem, args).save(path)
+    ledger = None
     try:
         with open_for_learning(path) as ledger:
             told_again(ledger)
@@ -57,7 +58,7 @@ def run(args: Namespace) -> int:
         remark(f"gaitwright: interrupted; what was learned so far is in {path}: the same command goes on")
         return 130
     finally:
-        if is_new and len(Skillbook.load(path).steps) == 1:  # nothing was learned
+        if is_new and (ledger is None or len(ledger.book.steps) == 1):  # nothing was learned
             path.unlink()
     return 0
 
@@ -141,11 +142,8 @@ def taught(
             spoke = now
             remark(f"trips: {report.trips} of {trips}, {wrong_in(report)} ({now:.0f} s)")
 
-    def keep(told: Told, events: tuple[Event, ...]) -> None:
-        ledger.tell(told, events)
-
     pupil, first, known = ready(ledger, args.seed)
-    report = attend(pupil, robot, teacher, args.seed, trips, first, keep, progress, known=known)
+    report = attend(pupil, robot, teacher, args.seed, trips, first, ledger.tell, progress, known=known)
     settle(ledger, pupil)
     return pupil, report
 
@@ -153,13 +151,13 @@ def taught(
 def ready(ledger: Ledger, seed: int) -> tuple[SkillPupil, int, dict[str, Told]]:
     """The pupil of a book, the school's trip that she goes on with, and what she was told on it already."""
     pupil, rest = pupil_as_noted(ledger.book)
-    heard = all_told(ledger.book.steps)[: len(all_told(ledger.book.steps)) - len(rest)]
-    first = after_last(heard, seed)
-    if any(trip_of(told, seed) != first for told in rest):  # told by somebody else
-        for told in rest:
-            pupil.hear(told)
-        return pupil, after_last([*heard, *rest], seed), {}
-    return pupil, first, {told.id: told for told in rest}
+    told = all_told(ledger.book.steps)
+    first = after_last(told[: len(told) - len(rest)], seed)
+    if any(trip_of(one, seed) != first for one in rest):  # told by somebody else
+        for one in rest:
+            pupil.hear(one)
+        return pupil, after_last(told, seed), {}
+    return pupil, first, {one.id: one for one in rest}
 
 
 def after_last(told: list[Told], seed: int) -> int:
@@ -174,11 +172,6 @@ def told_again(ledger: Ledger) -> None:
     if book.pupil is None and not all_told(book.steps):
         for told in told_by(book):
             ledger.tell(told)
-
-
-def settle(ledger: Ledger, pupil: SkillPupil) -> None:
-    """Puts away the rules that a pupil has made so far, and her notes."""
-    ledger.settle(pupil.rulebook(), notes_of(pupil, len(all_told(ledger.book.steps))))
 
 
 # --- what came of it -------------------------------------------------------------------------------

@@ -42,7 +42,7 @@ def running(robot: Robot, rulebook: Rulebook, args: Namespace) -> Running:
     plant, mission = make_plant("mujoco", robot, scene, DT), Mission((goal,), args.speed, "hybrid")
     trips.warm_up(setting, plant, mission)
     session = Session(setting.brain, plant, mission, args.seconds, args.seed)
-    return Running(session, f"{scene.name} (seed {args.seed})", args.seed)
+    return Running(session, f"{scene.name} (seed {args.seed})")
 
 
 def played(args: Namespace) -> Played:

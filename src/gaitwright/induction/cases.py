@@ -57,11 +57,13 @@ def table_of(
     rows: Float[np.ndarray, "cases columns"],
     action: Int[np.ndarray, " cases"],
     reason: Int[np.ndarray, " cases"],
+    actions: int,
     like: Cases,
 ) -> Cases:
-    """The table of many cases at once, over the columns of another: what `with_case` makes one by one."""
+    """The table of many cases at once, of so many known actions, over the columns of another table: what
+    `with_case` makes one by one."""
     x = np.ascontiguousarray(rows.T)
-    named = np.zeros((int(action.max(initial=-1)) + 1, len(like.price)), np.bool_)
+    named = np.zeros((actions, len(like.price)), np.bool_)
     for a, r in zip(action.tolist(), reason.tolist(), strict=True):
         if r != NOBODY:
             named[a] |= like.reads[:, r]

@@ -172,10 +172,8 @@ class Pupil:
         self._widest, before, rule = None, self.lines, int(self.standing.fire[case])
         rest = np.delete(np.arange(self.cases.n), case)
         old = self.cases
-        table = table_of(old.x.T[rest], old.action[rest], old.reason[rest], old)
-        named = np.zeros_like(old.named)
-        named[: len(table.named)] = table.named
-        self.cases = table._replace(named=named, weight=old.weight[rest])
+        table = table_of(old.x.T[rest], old.action[rest], old.reason[rest], len(old.named), old)
+        self.cases = table._replace(weight=old.weight[rest])
         self.scene = self.scene[rest]
         self.since -= self.since > case
         del self.surprises[case]

@@ -53,7 +53,7 @@ def differences(
     kept = set(same.values())
     gone = [name for r, name in enumerate(before.names) if r not in kept and name]
     events += [Event(lesson, name, "", "rule", name, "", f"the rule {name} is gone") for name in gone]
-    return (*events, *(replace(event, instance=lesson) for event in reordered(before, after, same)))
+    return (*events, *reordered(before, after, same, lesson))
 
 
 def partners(before: Stage, after: Stage) -> dict[int, int]:
@@ -97,7 +97,7 @@ def change(vocabulary: Vocabulary, wording: Wording, c: int, old: RuleLine, new:
     return f"{verb} where {about(wording, column)} {b:.4g}{unit}, not {a:.4g}"
 
 
-def reordered(before: Stage, after: Stage, same: dict[int, int]) -> Iterator[Event]:
+def reordered(before: Stage, after: Stage, same: dict[int, int], lesson: str) -> Iterator[Event]:
     """For each rule that comes before another now which it came after, and takes lessons from it so, the
     first of these."""
     taken = set(zip(after.fire.tolist(), before.fire.tolist(), strict=True))
@@ -106,7 +106,7 @@ def reordered(before: Stage, after: Stage, same: dict[int, int]) -> Iterator[Eve
         passed = [p for p in rows[k + 1 :] if same[p] < same[r] and (r, same[p]) in taken]
         if passed and after.names[r] and after.names[passed[0]]:
             why = f"{after.names[r]} now comes before {after.names[passed[0]]}"
-            yield Event("", after.names[r], "", "order", str(same[r] + 1), str(r + 1), why)
+            yield Event(lesson, after.names[r], "", "order", str(same[r] + 1), str(r + 1), why)
 
 
 # --- in words --------------------------------------------------------------------------------------

@@ -52,7 +52,7 @@ def expressed(
     lines: Lines, cases: Cases, standing: Standing, vocabulary: Vocabulary, wording: Wording, taught: Lessons
 ) -> Rulebook:
     """The rulebook that decides as the list does."""
-    forest = forest_for([lines], vocabulary, wording)
+    forest = forest_for(lines, vocabulary, wording)
     numbers = number_columns(vocabulary, wording)
     sets = leaf_sets(forest, cases, numbers, taught.instances)
     rules: list[Rule] = []
@@ -76,15 +76,14 @@ def expressed(
 
 
 # --- trees -----------------------------------------------------------------------------------------
-def forest_for(lists: Sequence[Lines], vocabulary: Vocabulary, wording: Wording) -> Forest:
-    """The trees with every bound of the lists in them, and new ones for numbers that none of them reads."""
+def forest_for(lines: Lines, vocabulary: Vocabulary, wording: Wording) -> Forest:
+    """The trees with every bound of a list in them, and new ones for numbers that none of them reads."""
     needed: dict[str, tuple[Column, set[float]]] = {}
-    for lines in lists:
-        for bound in (bound for rule in lines.rules for bound in rule.bounds):
-            column = vocabulary.columns[bound.column]
-            if not column.values:
-                cuts = needed.setdefault(wording.of(column), (column, set()))[1]
-                cuts.update(cut for cut in (bound.low, bound.high) if np.isfinite(cut))
+    for bound in (bound for rule in lines.rules for bound in rule.bounds):
+        column = vocabulary.columns[bound.column]
+        if not column.values:
+            cuts = needed.setdefault(wording.of(column), (column, set()))[1]
+            cuts.update(cut for cut in (bound.low, bound.high) if np.isfinite(cut))
     trees = []
     for tree in wording.forest.trees:
         if tree.name in needed:

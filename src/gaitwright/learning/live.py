@@ -11,9 +11,9 @@ from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.rules import Event
 from gaitwright.knowledge.told import Told
 from gaitwright.learning.decision_point import DecisionPoint
-from gaitwright.learning.notes import notes_of
+from gaitwright.learning.notes import forget, settle
 from gaitwright.learning.skill_pupil import Choice, SkillPupil, Taken
-from gaitwright.skillbook.history import all_told, free_name
+from gaitwright.skillbook.history import free_name, names_told
 from gaitwright.skillbook.writer import Ledger
 
 
@@ -63,7 +63,7 @@ class LiveLessons:
 
     def tried(self, told: Told) -> Tried:
         """What a lesson would do. Raises `WrongUse` where one of that name was kept before."""
-        if any(step.told and step.told.id == told.id for step in self.ledger.book.steps):
+        if told.id in names_told(self.ledger.book.steps):
             raise WrongUse(f"{told.id} was taught before: `forget` it first, or go on a little")
         before, after = self.pupil, self.pupil.copied()
         taken = after.hear(told)
@@ -84,7 +84,7 @@ class LiveLessons:
         """Learns it: lesson, rules and notes are in the book when this returns."""
         self.ledger.tell(tried.told, tried.taken.events)
         self.pupil = tried.pupil
-        self.settle()
+        settle(self.ledger, self.pupil)
 
     def forget(self, name: str = "") -> tuple[str, tuple[Event, ...]]:
         """Takes back what was told under a name, else the last that counts; its name and what that moved.
@@ -95,23 +95,13 @@ class LiveLessons:
             raise WrongUse("nothing was taught yet that could be taken back")
         name = name or self.pupil.told[-1].id
         after = self.pupil.copied()
-        events = after.forget(name)
-        self.ledger.forget(name, after.rulebook(), notes_of(after, self.heard), events)
+        events = forget(self.ledger, after, name)
         self.pupil = after
         return name, events
 
     def unused(self, name: str) -> str:
         """A name for a lesson that none in the book has yet."""
-        return free_name(name, {told.id for told in all_told(self.ledger.book.steps)})
-
-    def settle(self) -> None:
-        """Puts the rules and the notes on the pupil into the book."""
-        self.ledger.settle(self.pupil.rulebook(), notes_of(self.pupil, self.heard))
-
-    @property
-    def heard(self) -> int:
-        """How many lessons the book holds, those forgotten included."""
-        return len(all_told(self.ledger.book.steps))
+        return free_name(name, names_told(self.ledger.book.steps))
 
 
 def stretches(seen: Sequence[Seen], was: Sequence[Choice], now: Sequence[Choice]) -> list[Stretch]:

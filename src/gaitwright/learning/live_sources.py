@@ -10,11 +10,10 @@ from gaitwright.learning.decision_point import DecisionPoint
 from gaitwright.learning.live import Seen
 from gaitwright.model.robot import Robot
 from gaitwright.record.moment import call_at, route_at, sensed_at
-from gaitwright.record.recording import Recorder, Recording
+from gaitwright.record.recording import Recording
 from gaitwright.session import Session
 from gaitwright.signals import Route, Sensed, SkillCall
 from gaitwright.skills.foothold_guard import FootholdGuard
-from gaitwright.skills.library import LIBRARY, OTHER_NAMES
 from gaitwright.skills.measured import measured
 from gaitwright.skills.rule_chooser import RuleChooser
 from gaitwright.skills.situation import named
@@ -26,9 +25,8 @@ EVERY = 0.2
 class Running:
     """A mission that runs: the rules drive it, and drive it on by what is kept."""
 
-    def __init__(self, session: Session, name: str, seed: int) -> None:
+    def __init__(self, session: Session, name: str) -> None:
         self.session, self.name = session, name
-        self.recorder = Recorder(session.brain.robot, name, seed, session.plant.dt)
 
     @property
     def time(self) -> float:
@@ -46,7 +44,6 @@ class Running:
             lap = self.session.step()
             if lap is None:
                 break
-            self.recorder.add(lap)
             if self.time >= next_look - 1e-9:
                 next_look += EVERY
                 passed.append(self.here())
@@ -64,10 +61,6 @@ class Running:
         chooser = FootholdGuard(RuleChooser(brain.robot, rulebook), brain.robot)
         self.session.brain = replace(brain, chooser=chooser)
         self.session.mind = self.session.mind._replace(chosen_at=-np.inf)  # chosen anew at once
-
-    def recording(self) -> Recording:
-        """What has been seen so far."""
-        return self.recorder.finish()
 
 
 class Played:
@@ -118,7 +111,6 @@ class Played:
 
 def seen_at(name: str, time: float, robot: Robot, route: Route, sensed: Sensed, call: SkillCall) -> Seen:
     """A moment as a pupil is asked about it: what was measured, and what the robot has been doing."""
-    doing = call if call.skill in LIBRARY or call.skill in OTHER_NAMES else None
-    raw = measured(robot, route, sensed, doing)
-    point = DecisionPoint(f"{name} at {time:.2f} s", named(raw, doing), raw, dict(call.memory))
+    raw = measured(robot, route, sensed, call)
+    point = DecisionPoint(f"{name} at {time:.2f} s", named(raw, call), raw, dict(call.memory))
     return Seen(time, point, call.skill)

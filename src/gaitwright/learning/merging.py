@@ -3,8 +3,6 @@
 from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from gaitwright.errors import WrongUse
 from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.told import Told
@@ -12,8 +10,15 @@ from gaitwright.learning.notes import pupil_of, with_steps
 from gaitwright.learning.older_books import told_by
 from gaitwright.learning.skill_pupil import SkillPupil
 from gaitwright.skillbook.book import Skillbook, content_hash
-from gaitwright.skillbook.history import Ancestor, Step, all_told, forgotten, free_name
-from gaitwright.skills.vocabulary import VOCABULARY
+from gaitwright.skillbook.history import (
+    Ancestor,
+    Step,
+    all_told,
+    forgotten,
+    free_name,
+    names_told,
+    that_count,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +81,7 @@ class Joining:
         """What ours was told last at each moment, since they went apart."""
         self.steps: list[Step] = []
         """What is added to ours."""
-        self.taken = {told.id for told in all_told(self.ours.steps)}
+        self.taken = names_told(self.ours.steps)
         self.opposed: dict[str, Conflict] = {}
         """By the names, in theirs, of lessons that ours was told otherwise."""
         self.news = self.found_news()
@@ -85,9 +90,8 @@ class Joining:
         """The steps of theirs that ours has not been through: told and still counting there, or forgotten of
         what both were told."""
         gone, ours_gone = forgotten(self.theirs.steps), forgotten(self.ours.steps)
-        both = {told.id for told in all_told(self.ours.steps[: self.shared])} - ours_gone
-        kept = [told for told in all_told(self.ours.steps) if told.id not in ours_gone | (gone & both)]
-        known = {key_of(told) for told in kept}
+        both = names_told(self.ours.steps[: self.shared]) - ours_gone
+        known = {key_of(told) for told in that_count(self.ours.steps) if told.id not in gone & both}
         return [
             step
             for step in self.theirs.steps[self.shared :]
@@ -186,10 +190,7 @@ def followed(pupil: SkillPupil, lessons: Sequence[Told]) -> list[Told]:
 
 def decided(pupil: SkillPupil, lessons: Sequence[Told]) -> list[Action | None]:
     """What a pupil does at the moments of some lessons; `None` before her first one."""
-    if not lessons or not pupil.told:
-        return [None] * len(lessons)
-    rows = np.array([VOCABULARY.row(told.facts) for told in lessons])
-    return [pupil.actions[action] for action in pupil.pupil.decide_all(rows.T)[0].tolist()]
+    return [choice.action for choice in pupil.choose_at([told.facts for told in lessons])]
 
 
 def action_text(action: Action) -> str:

@@ -9,15 +9,14 @@ from gaitwright.errors import BadFile
 from gaitwright.induction.cases import no_cases, table_of
 from gaitwright.induction.decision_list import Bound, Lines, RuleLine
 from gaitwright.induction.standing import standing_of
-from gaitwright.knowledge.rules import Rulebook
+from gaitwright.knowledge.rules import Event, Rulebook
 from gaitwright.knowledge.told import Told
 from gaitwright.learning.skill_pupil import SkillPupil, instance_of
 from gaitwright.skillbook.book import Skillbook
 from gaitwright.skillbook.history import Step, all_told, forgotten
 from gaitwright.skillbook.pupil_notes import ColumnBound, ListedRule, PupilNotes, RuleList
-from gaitwright.skills.vocabulary import VOCABULARY
-
-PLACES = {column.name: k for k, column in enumerate(VOCABULARY.columns)}
+from gaitwright.skillbook.writer import Ledger
+from gaitwright.skills.vocabulary import COLUMN_PLACES, VOCABULARY
 
 
 def notes_of(taught: SkillPupil, heard: int) -> PupilNotes:
@@ -39,6 +38,19 @@ def notes_of(taught: SkillPupil, heard: int) -> PupilNotes:
     )
 
 
+def settle(ledger: Ledger, taught: SkillPupil) -> None:
+    """Puts the rules that a pupil has made of all that the book holds into it, and the notes on her."""
+    ledger.settle(taught.rulebook(), notes_of(taught, len(all_told(ledger.book.steps))))
+
+
+def forget(ledger: Ledger, taught: SkillPupil, name: str) -> tuple[Event, ...]:
+    """Takes back what was told under a name, from a pupil and in her book; what that moved. Raises `WrongUse`
+    where nothing was."""
+    events = taught.forget(name)
+    ledger.forget(name, taught.rulebook(), notes_of(taught, len(all_told(ledger.book.steps))), events)
+    return events
+
+
 def pupil_of(book: Skillbook) -> SkillPupil:
     """The pupil of a book, who has heard everything that it holds. Raises `BadFile` for a book over numbers
     that nobody measures."""
@@ -53,10 +65,10 @@ def pupil_as_noted(book: Skillbook) -> tuple[SkillPupil, list[Told]]:
     told, notes = all_told(book.steps), book.pupil
     if notes is None:
         return SkillPupil(book.seed), told
-    gone, taught = forgotten(book.steps), SkillPupil(notes.seed)
-    for one in told[: notes.heard]:
+    gone, taught, heard = forgotten(book.steps), SkillPupil(notes.seed), told[: notes.heard]
+    for one in heard:
         taught.note(one)
-    taught.told = [one for one in told[: notes.heard] if one.id not in gone]
+    taught.told = [one for one in heard if one.id not in gone]
     taught.instances = [instance_of(one) for one in taught.told]
     restore(taught, notes, book.name)
     return taught, told[notes.heard :]
@@ -72,12 +84,9 @@ def restore(taught: SkillPupil, notes: PupilNotes, source: str) -> None:
     rows = np.array([lesson.row for lesson in lessons]).reshape(n, len(VOCABULARY.columns))
     numbers = np.array([(lesson.action, lesson.reason, lesson.scene) for lesson in lessons], np.int64)
     actions, reasons, scenes = np.ascontiguousarray(numbers.reshape(n, 3).T)
-    table = table_of(rows, actions, reasons, empty)
-    named = np.zeros((len(taught.kinds), len(VOCABULARY.columns)), np.bool_)
-    named[: len(table.named)] = table.named
+    pupil.cases = table_of(rows, actions, reasons, len(taught.kinds), empty)
     for case, weight in notes.weights:
-        table.weight[case] = weight
-    pupil.cases = table._replace(named=named)
+        pupil.cases.weight[case] = weight
     pupil.scene = scenes
     pupil.lines = lines_of(notes.own, source)
     pupil.rivals = [lines_of(rival, source) for rival in notes.rivals]
@@ -108,14 +117,14 @@ def lines_of(rules: RuleList, source: str) -> Lines:
 def line_of(rule: ListedRule, source: str) -> RuleLine:
     bounds = []
     for bound in rule.bounds:
-        if bound.column not in PLACES:
+        if bound.column not in COLUMN_PLACES:
             raise BadFile(
                 f"{source}: its rules ask for {bound.column!r}, which nobody measures here: it was taught by "
                 "another version"
             )
         low = -np.inf if bound.low is None else bound.low
         high = np.inf if bound.high is None else bound.high
-        bounds.append(Bound(PLACES[bound.column], float(low), float(high)))
+        bounds.append(Bound(COLUMN_PLACES[bound.column], float(low), float(high)))
     return RuleLine(rule.action, tuple(bounds))
 
 

@@ -15,7 +15,8 @@ from jaxtyping import Bool, Float
 from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.told import Told
 from gaitwright.learning.live_sources import Played
-from gaitwright.learning.skill_pupil import SkillPupil, facts_of, kind_of
+from gaitwright.learning.skill_pupil import SkillPupil, told_at
+from gaitwright.learning.teacher import Shown
 from gaitwright.model.kinematics import feet_over_time
 from gaitwright.numerics.geometry import GRAVITY, rotations
 from gaitwright.record.recording import Recording
@@ -107,12 +108,8 @@ def lesson_of(recording: Recording, pupil: SkillPupil, name: str) -> Told | None
         done = pupil.choose(moment).action
         if done is not None and done.fastest > 0.0:
             action = calmer(done, pupil.actions)
-            rule = next(
-                (one.rule for one in reversed(pupil.told) if kind_of(one.action) == kind_of(action)),
-                action.skill,
-            )
-            own = (rule, action, mistake.sentence, "", name, "by itself")
-            return Told(moment.id, facts_of(moment), *own)
+            shown = Shown(pupil.name_of(action), action, mistake.sentence)
+            return told_at(moment, shown, name, "by itself")
     return None
 
 

@@ -26,7 +26,7 @@ from gaitwright.knowledge.json_form import Label, Strict, Text
 from gaitwright.learning.said_action import said_action
 from gaitwright.learning.teacher import Clause, Raw
 from gaitwright.model.robot import Robot
-from gaitwright.skills.vocabulary import VOCABULARY
+from gaitwright.skills.vocabulary import COLUMN_PLACES, VOCABULARY
 
 MAX_BYTES = 1_000_000
 ORDER: dict[str, Callable[[float, float], bool]] = {
@@ -38,7 +38,6 @@ ORDER: dict[str, Callable[[float, float], bool]] = {
 NUMBER = r"[-+]?\d*\.?\d+(?:[eE][-+]?\d+)?"
 COMPARED = re.compile(rf"^(?P<name>[^<>=]+?)\s*(?P<sign><=|>=|<|>)\s*(?P<bound>{NUMBER})$")
 """One condition: a number of `vocabulary.VOCABULARY` and a bound."""
-COLUMNS = {column.name: column for column in VOCABULARY.columns}
 
 
 class RuleEntry(Strict, frozen=True):
@@ -91,12 +90,16 @@ def clause_of(entry: RuleEntry, robot: Robot) -> Clause:
 
 def condition_of(said: str) -> tuple[Column, Callable[[float], bool]]:
     """The column that a condition looks at, and the test of its number. Raises `WrongUse`."""
-    if said in COLUMNS and COLUMNS[said].values:  # "doing is walking"
-        return COLUMNS[said], lambda number: number > 0.5
+    if said in COLUMN_PLACES and column_named(said).values:  # "doing is walking"
+        return column_named(said), lambda number: number > 0.5
     found = COMPARED.match(said)
     if found is None:
         raise WrongUse(f"{said!r} is no condition; write e.g. 'grip < 0.5', joined by ' and '")
-    if found["name"] not in COLUMNS:
-        raise unknown("number", found["name"], COLUMNS)
+    if found["name"] not in COLUMN_PLACES:
+        raise unknown("number", found["name"], COLUMN_PLACES)
     compare, bound = ORDER[found["sign"]], float(found["bound"])
-    return COLUMNS[found["name"]], lambda number: compare(number, bound)
+    return column_named(found["name"]), lambda number: compare(number, bound)
+
+
+def column_named(name: str) -> Column:
+    return VOCABULARY.columns[COLUMN_PLACES[name]]

@@ -51,7 +51,7 @@ class SchoolReport:
 
 
 NOTHING: Mapping[str, Told] = MappingProxyType({})
-Keep = Callable[[Told, tuple[Event, ...]], None]
+Keep = Callable[[Told, tuple[Event, ...]], object]
 """Who puts a lesson away before anything else is learned."""
 
 

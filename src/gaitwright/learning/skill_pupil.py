@@ -4,7 +4,7 @@ What she is told goes to `induction.pupil` as numbers; here are the words: which
 the teacher calls each rule, and the situation as people speak of it.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field, replace
 
@@ -15,7 +15,7 @@ from gaitwright.induction.cases import NOBODY
 from gaitwright.induction.pupil import STEPPED_IN, Heard, Lesson, Pupil
 from gaitwright.knowledge.differences import Stage, differences
 from gaitwright.knowledge.expressed import Lessons, expressed, rule_names
-from gaitwright.knowledge.memory import Action
+from gaitwright.knowledge.memory import Action, Fact
 from gaitwright.knowledge.rules import Event, Instance, Rulebook
 from gaitwright.knowledge.told import Given, Told
 from gaitwright.learning.decision_point import DecisionPoint
@@ -79,7 +79,8 @@ class SkillPupil:
         """A kind of action with the speeds that were shown of it."""
         if kind.fastest > 0.0:
             return kind
-        speeds = [told.action.fastest for told in self.told if kind_of(told.action) == kind]
+        shown = (told.action for told in self.told if told.action.skill == kind.skill)
+        speeds = [action.fastest for action in shown if kind_of(action) == kind]
         return replace(kind, slowest=min(speeds, default=0.0), fastest=max(speeds, default=0.0))
 
     # --- deciding ----------------------------------------------------------------------------------
@@ -89,9 +90,13 @@ class SkillPupil:
 
     def choose_all(self, moments: Sequence[DecisionPoint]) -> list[Choice]:
         """What the rules do at many moments."""
-        if not self.told or not moments:
-            return [Choice(None)] * len(moments)
-        rows = np.array([VOCABULARY.row(facts_of(moment)) for moment in moments])
+        return self.choose_at([facts_of(moment) for moment in moments])
+
+    def choose_at(self, facts: Sequence[Mapping[str, Fact]]) -> list[Choice]:
+        """What the rules do where these facts hold, one set of them after the other."""
+        if not self.told or not facts:
+            return [Choice(None)] * len(facts)
+        rows = np.array([VOCABULARY.row(one) for one in facts])
         places, _, sure = self.pupil.decide_all(rows.T)
         done = {a: self.as_fast_as_shown(self.kinds[a]) for a in set(places.tolist())}
         return [Choice(done[a], s) for a, s in zip(places.tolist(), sure.tolist(), strict=True)]
@@ -137,6 +142,12 @@ class SkillPupil:
         reason = VOCABULARY.place_of(told.about) if told.about in VOCABULARY.names else NOBODY
         row, action = VOCABULARY.row(told.facts), self.kinds.index(kind_of(told.action))
         return Lesson(row, action, reason, self.scenes[told.scene], WEIGHT.get(told.given, 1.0))
+
+    def name_of(self, action: Action) -> str:
+        """What the rule of an action was called last; its skill, where it was never taught."""
+        kind = kind_of(action)
+        called = (one.rule for one in reversed(self.told) if kind_of(one.action) == kind)
+        return next(called, action.skill)
 
     def aside(self) -> list[Told]:
         """What counts and is not followed: it contradicts too much of the rest."""

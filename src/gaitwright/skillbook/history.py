@@ -49,6 +49,18 @@ def forgotten(steps: Iterable[Step]) -> set[str]:
     return {step.note for step in steps if step.how == "forgotten"}
 
 
+def that_count(steps: Iterable[Step]) -> list[Told]:
+    """What was told and was not forgotten since, in order."""
+    steps = tuple(steps)
+    gone = forgotten(steps)
+    return [told for told in all_told(steps) if told.id not in gone]
+
+
+def names_told(steps: Iterable[Step]) -> set[str]:
+    """The names of everything that was told, whether it was forgotten since or not."""
+    return {told.id for told in all_told(steps)}
+
+
 def free_name(wanted: str, taken: Collection[str]) -> str:
     """A name for a lesson that none has yet: the wanted one, else that with a number."""
     name, number = wanted, 1

@@ -12,7 +12,7 @@ from gaitwright.knowledge.told import Told
 from gaitwright.skillbook import rows
 from gaitwright.skillbook.book import Skillbook, about_of, book_of
 from gaitwright.skillbook.entries import checked, encoded, event_entries, step_entry
-from gaitwright.skillbook.history import Step, all_told, forgotten
+from gaitwright.skillbook.history import Step, forgotten, names_told
 from gaitwright.skillbook.pupil_notes import PupilNotes
 from gaitwright.skillbook.schema import MAX_BYTES, connected, located, migrate, number, sentences, version_of
 
@@ -43,7 +43,7 @@ class Ledger:
 
         Raises `WrongUse` where something of that name was told before.
         """
-        if any(earlier.id == told.id for earlier in all_told(self.book.steps)):
+        if told.id in names_told(self.book.steps):
             raise WrongUse(f"{told.id} was told before: what is told has a name of its own")
         return self._append(Step("told", told=told), self._moved(events, 1))
 
@@ -55,7 +55,7 @@ class Ledger:
         Raises `WrongUse` where nothing of that name counts.
         """
         steps = self.book.steps
-        if name in forgotten(steps) or all(told.id != name for told in all_told(steps)):
+        if name in forgotten(steps) or name not in names_told(steps):
             raise WrongUse(f"{name} was never told, or is forgotten already")
         after = replace(rulebook, events=self._moved(events).events)
         return self._append(Step("forgotten", note=name), after, notes)

@@ -141,7 +141,7 @@ def room(robot: Robot, route: Route) -> float:
 
 def goes_on(action: Action | None, situation: Situation) -> bool:
     """Whether an action that was begun goes on: there is somewhere to go, and its condition does not hold."""
-    under_way = situation["goal"] not in ("arrived", "no goal")
+    under_way = situation["goal"] not in NO_GOAL
     return action is not None and bool(action.until) and under_way and not holds(action.until, situation)
 
 

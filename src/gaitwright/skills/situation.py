@@ -196,11 +196,9 @@ def street_of(degrees: float) -> str:
 
 
 def doing_of(call: SkillCall | None) -> str:
-    """What kind of motion a skill is."""
-    if call is None:
-        return "standing"
-    skill = LIBRARY[OTHER_NAMES.get(call.skill, call.skill)]
-    if skill.duty >= 1.0:
+    """What kind of motion a skill is; a skill that is not known here, in an older recording, is none."""
+    skill = None if call is None else LIBRARY.get(OTHER_NAMES.get(call.skill, call.skill))
+    if skill is None or skill.duty >= 1.0:
         return "standing"
     if skill.speed == 0.0:
         return "turning"

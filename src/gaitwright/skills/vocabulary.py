@@ -55,3 +55,6 @@ FLAGS = {
 """Facts that are one of a few numbers, and how a sentence on what is not so speaks of each."""
 
 VOCABULARY = Vocabulary(FACTS)
+
+COLUMN_PLACES = {column.name: k for k, column in enumerate(VOCABULARY.columns)}
+"""The place of each column by its name: names are what files and people know."""

@@ -5,7 +5,8 @@ A change of the numbers themselves is always a possible situation, which one of 
 slope is under 3 ° and of a size of 9 °.
 """
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations, product
 
@@ -13,8 +14,7 @@ from gaitwright.induction.columns import Column, Names
 from gaitwright.knowledge.compiled import Compiled, compile_book, decide
 from gaitwright.knowledge.memory import Fact
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.skills.book_trees import in_trees_of
-from gaitwright.skills.situation import situation_of
+from gaitwright.skills.book_trees import situation_in
 from gaitwright.skills.vocabulary import FACTS, FLAGS, VOCABULARY
 from gaitwright.skills.wording import NUMBERS
 
@@ -47,27 +47,38 @@ class WhatIf:
 
 
 def what_if(rulebook: Rulebook, facts: Facts, to: str = "") -> WhatIf:
-    """What would have to be different for a rule to fire, or, without `to`, for any other; each answer was
-    tried."""
+    """What would have to be different for a rule to fire, or, without `to`, for any other."""
+    return what_ifs(rulebook, facts, (to,))[0]
+
+
+def what_ifs(rulebook: Rulebook, facts: Facts, targets: Sequence[str]) -> list[WhatIf]:
+    """`what_if` for some rules ("": any other), each with the fewest changes; each answer was tried."""
     table = compile_book(rulebook)
     now = decided(rulebook, table, facts)
-    found: list[tuple[float, WhatIf]] = []
     tried = {fact: list(values_of(rulebook, facts, fact)) for fact in facts if fact in QUANTITIES}
+    found: dict[str, WhatIf] = {}
     for many in range(1, MOST_FACTS + 1):
+        left, nearest = set(targets) - found.keys(), dict[str, float]()
+        if not left:
+            break
         for names in combinations(tried, many):
             for changes in product(*(tried[name] for name in names)):
                 rule = decided(rulebook, table, {**facts, **{c.fact: c.after for c in changes}})
-                if rule is not None and rule != now and to in ("", rule):
-                    found.append((sum(far(change) for change in changes), told(rule, changes)))
-        if found:
-            return min(found, key=lambda pair: pair[0])[1]
+                away = sum(far(change) for change in changes)
+                for to in left & {"", rule} if rule not in (None, now) else ():
+                    if away < nearest.get(to, math.inf):
+                        nearest[to], found[to] = away, told(str(rule), changes)
+    return [found.get(to) or nothing_for(to) for to in targets]
+
+
+def nothing_for(to: str) -> WhatIf:
+    """That no answer was found."""
     return WhatIf("", (), f"no change of {MOST_FACTS} numbers was found after which {to or 'another'} fires")
 
 
 def decided(rulebook: Rulebook, table: Compiled, facts: Facts) -> str | None:
     """The rule that fires where these facts hold."""
-    numbers = {name: fact for name, fact in facts.items() if not isinstance(fact, str)}
-    situation = in_trees_of(rulebook, situation_of(facts), numbers)
+    situation = situation_in(rulebook, facts)
     values = {tree: value for tree, value in situation.items() if value is not None}
     return decide(table, values)[0] if len(values) == len(table.trees) else None
 

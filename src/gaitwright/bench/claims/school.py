@@ -14,7 +14,7 @@ from gaitwright.bench.measurement import Figure, at_least, at_most
 from gaitwright.bench.trial import robot_named
 from gaitwright.knowledge.told import Told
 from gaitwright.learning.exam import Trial, faults, held_out, trial
-from gaitwright.learning.notes import notes_of, pupil_of
+from gaitwright.learning.notes import pupil_of, settle
 from gaitwright.learning.school import attend
 from gaitwright.learning.skill_pupil import SkillPupil, told_at
 from gaitwright.learning.teacher import ScriptedTeacher
@@ -79,7 +79,7 @@ def stored(pupil: SkillPupil, path: Path) -> Path:
     with open_for_learning(path) as ledger:
         for told in pupil.told:
             ledger.tell(told)
-        ledger.settle(pupil.rulebook(), notes_of(pupil, len(pupil.told)))
+        settle(ledger, pupil)
     return path
 
 
@@ -90,5 +90,5 @@ def stored_in(path: Path, told: Told) -> float:
         pupil = pupil_of(ledger.book)
         began = perf_counter()
         ledger.tell(told, pupil.hear(told).events)
-        ledger.settle(pupil.rulebook(), notes_of(pupil, len(pupil.told)))
+        settle(ledger, pupil)
         return perf_counter() - began

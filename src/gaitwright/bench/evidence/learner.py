@@ -9,11 +9,11 @@ from pathlib import Path
 from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.rules import Rule
 from gaitwright.knowledge.told import Told
-from gaitwright.learning.notes import notes_of, pupil_of, with_steps
+from gaitwright.learning.notes import pupil_of, settle, with_steps
 from gaitwright.learning.skill_pupil import SkillPupil
 from gaitwright.skillbook.book import Skillbook
 from gaitwright.skillbook.history import Step, all_told
-from gaitwright.skillbook.writer import Ledger, open_for_learning
+from gaitwright.skillbook.writer import open_for_learning
 from gaitwright.skills.situation import FOREST
 
 LESSONS = 60
@@ -42,11 +42,6 @@ def learn_on() -> None:
             if (place + 1) % SETTLES == 0:
                 settle(ledger, pupil)
         settle(ledger, pupil)
-
-
-def settle(ledger: Ledger, pupil: SkillPupil) -> None:
-    """Stores the rules, and the notes on a pupil who has heard everything."""
-    ledger.settle(pupil.rulebook(), notes_of(pupil, len(all_told(ledger.book.steps))))
 
 
 def begun() -> Skillbook:

@@ -9,11 +9,10 @@ from tempfile import TemporaryDirectory
 from gaitwright.bench.context import Context
 from gaitwright.bench.trial import robot_named
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.knowledge.told import Told
 from gaitwright.learning.live import LiveLessons
 from gaitwright.learning.live_sources import Running
 from gaitwright.learning.own_mistakes import lesson_of
-from gaitwright.learning.skill_pupil import SkillPupil, facts_of
+from gaitwright.learning.skill_pupil import SkillPupil, told_at
 from gaitwright.learning.teacher import ScriptedTeacher
 from gaitwright.locomotion import Brain
 from gaitwright.plant.mujoco.simulation import MujocoPlant
@@ -79,7 +78,7 @@ def lesson_from_a_person(context: Context) -> tuple[SkillPupil, int]:
             room = LiveLessons(ledger, SkillPupil(context.seed))
             for trip in LESSONS:
                 context.voice.say(f"lessons: ten minutes, {trip.scene}")
-                source = Running(session_of(trip, room.ledger.book.rulebook), trip.scene, trip.seed)
+                source = Running(session_of(trip, room.ledger.book.rulebook), trip.scene)
                 times += stepped_in(room, source, teacher)
             return room.pupil, times
 
@@ -91,8 +90,7 @@ def stepped_in(room: LiveLessons, source: Running, teacher: ScriptedTeacher) -> 
         seen = source.here()
         shown, choice = teacher.ideal(seen.moment.raw), room.pupil.choose(seen.moment)
         if choice.action != shown.action:
-            own = (shown.rule, shown.action, shown.because, shown.about, source.name)
-            room.keep(room.tried(Told(seen.moment.id, facts_of(seen.moment), *own)))
+            room.keep(room.tried(told_at(seen.moment, shown, source.name)))
             source.drive_by(room.ledger.book.rulebook)
             times += 1
         room.seen += source.go(EVERY, until_change=False)
