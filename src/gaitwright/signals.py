@@ -165,6 +165,10 @@ class Route:
     """Why there is no path to the goal, as a sentence."""
     ahead: Scan | None = None
     """The ground ahead; `None` where nobody looked."""
+    begins: float | None = None
+    """World direction in which the way sets out [rad]; `None` where there is none, or nobody noted it."""
+    ends: float | None = None
+    """World direction in which it comes to its last point [rad]."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -31,7 +31,7 @@ def moments():
     robot = robot_named("go2")
     plain = driven.pupil_drives(robot, Pupil(VOCABULARY), ())
     trips = (moments_of(course(robot, 900 + k), plain, np.random.default_rng(k)) for k in range(TRIPS))
-    return [driven.facts_of(moment) for trip in trips for moment in trip]
+    return [moment.facts for trip in trips for moment in trip]
 
 
 @cache

@@ -38,9 +38,9 @@ def test_the_columns_stand_in_the_order_that_is_promised():
     assert [column.name for column in VOCABULARY.columns] == [
         *("slope", "step", "gap", "left", "pace"),
         "size of slope",
-        *("doing is walk", "doing is trot", "doing is rest", "doing is moving"),
         *("larger of step and gap", "step less gap"),
         "left over pace",
+        *("doing is walk", "doing is trot", "doing is rest", "doing is moving"),
     ]
     assert VOCABULARY.plain.tolist() == [0, 1, 2, 3, 4]
     assert VOCABULARY.names == ("slope", "step", "doing", "gap", "left", "pace")

@@ -5,7 +5,7 @@ from gaitwright.skills.situation import READ_FROM, named
 
 EASY = {
     **dict.fromkeys(READ_FROM, 0.0),
-    "feet down": 1.0,
+    **dict.fromkeys(("feet down", "front feet", "hind feet", "left feet", "right feet"), 1.0),
     "remaining": 20.0,
     "points left": 1.0,
     "possible": 0.6,

@@ -9,7 +9,7 @@ from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.told import Told
 from gaitwright.learning.live import LiveLessons, Seen
 from gaitwright.learning.notes import pupil_of
-from gaitwright.learning.skill_pupil import SkillPupil, facts_of
+from gaitwright.learning.skill_pupil import SkillPupil
 from gaitwright.skillbook import Skillbook, open_for_learning
 from gaitwright.skills.situation import FOREST
 from learning.roads import moment
@@ -18,7 +18,7 @@ TROT, WALK = Action("trot", 0.2, 1.0), Action("walk", 0.1, 0.25)
 
 
 def told(name: str, action: Action, about: str = "", **changes: float) -> Told:
-    facts = facts_of(moment(**changes))
+    facts = moment(**changes).facts
     return Told(name, facts, action.skill, action, "", about, name.split(",", maxsplit=1)[0])
 
 
@@ -77,8 +77,12 @@ def test_what_is_taken_back_was_never_said_but_stays_in_the_history(lessons, pat
     assert pupil_of(book).rulebook().rules == rules
     with pytest.raises(WrongUse, match="no lesson 'ice at 3"):
         lessons.forget(ice().id)
+    again = lessons.tried(ice())
+    assert again.told.id != ice().id and again.told.id.startswith(ice().id) and again.is_followed
+    lessons.keep(again)
     with pytest.raises(WrongUse, match="was taught before"):
-        lessons.tried(ice())
+        lessons.tried(again.told)
+    assert pupil_of(Skillbook.load(path)).rulebook().rules == lessons.pupil.rulebook().rules
 
 
 def test_her_last_word_wins_in_the_same_situation_and_it_says_what_breaks(lessons):

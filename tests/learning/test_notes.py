@@ -46,7 +46,7 @@ def test_she_goes_on_the_same(put_away):
     one, other = pupil.copied(), pupil_of(book)
     trip = next(driven_trips(pupil, DOG, TEACHER, 6))
     for moment in trip[:40]:
-        told = told_at(moment, TEACHER.ideal(moment.raw), "another")
+        told = told_at(moment, TEACHER.ideal(moment.facts), "another")
         assert one.hear(told).events == other.hear(told).events
         assert one.pupil.lines == other.pupil.lines
     assert one.rulebook() == other.rulebook()
@@ -55,7 +55,7 @@ def test_she_goes_on_the_same(put_away):
 def test_what_was_told_after_the_notes_is_heard_when_the_book_is_opened(put_away, tmp_path):
     pupil, book = put_away
     moment = next(driven_trips(pupil, DOG, TEACHER, 7))[3]
-    told = told_at(moment, TEACHER.ideal(moment.raw), "later")
+    told = told_at(moment, TEACHER.ideal(moment.facts), "later")
     path = book.save(tmp_path / "b.skills")
     with open_for_learning(path) as ledger:
         ledger.tell(told)

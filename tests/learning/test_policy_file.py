@@ -43,12 +43,12 @@ def written(tmp_path):
 
 def test_the_first_rule_that_holds_is_what_she_does(written):
     teacher = ScriptedTeacher(policy_in(written(POLICY), DOG))
-    assert teacher.ideal(moment(arrived=1.0, grip=0.2).raw).action == Action("stop")
-    shown = teacher.ideal(moment(grip=0.2, slope=-7.0).raw)
+    assert teacher.ideal(moment(arrived=1.0, grip=0.2).facts).action == Action("stop")
+    shown = teacher.ideal(moment(grip=0.2, slope=-7.0).facts)
     assert (shown.rule, shown.because, shown.about) == ("walk where it is slippery", "it slips", "grip")
     assert shown.action == Action("walk", 0.1, 0.25)
-    assert teacher.ideal(moment(grip=0.2, slope=-9.0).raw).action.skill == "trot"
-    turn = teacher.ideal(moment(off_the_path=-50.0).raw).action
+    assert teacher.ideal(moment(grip=0.2, slope=-9.0).facts).action.skill == "trot"
+    turn = teacher.ideal(moment(off_the_path=-50.0).facts).action
     assert turn == Action("turn-in-place", until="turn is straight on")
 
 

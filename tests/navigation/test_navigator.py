@@ -56,6 +56,14 @@ def test_a_free_field_is_crossed_from_way_point_to_way_point(start, points) -> N
     assert route.speed == 0.3
 
 
+def test_it_is_known_which_way_a_mission_begins_and_ends() -> None:
+    pilot = among()
+    route = pilot.set_out(Mission(((2.0, 0.0), (2.0, 3.0)), None), at(0.0, 0.0))
+    assert (route.begins, route.ends) == (0.0, math.pi / 2)
+    later = pilot.plan(route, at(2.0, 0.0))
+    assert len(later.path) == 1 and (later.begins, later.ends) == (0.0, math.pi / 2)
+
+
 def test_a_mission_without_way_points_has_nowhere_to_go() -> None:
     route = among().set_out(Mission(()), at(0.0, 0.0))
     assert route.path == () and route.no_way is None

@@ -165,8 +165,20 @@ def test_a_recording_keeps_the_situation(laps: list[Lap], filed: Recording):
         assert route.ahead == lap.route.ahead
         assert (route.remaining, route.speed, route.arrived) == (lap.route.remaining, lap.route.speed, False)
         assert route.path[0] == lap.route.path[0] and len(route.path) == len(lap.route.path)
+        assert (route.begins, route.ends) == (lap.route.begins, lap.route.ends) and route.ends is not None
         np.testing.assert_array_equal(sensed.qd, lap.sensed.qd)
         assert call_at(filed, tick).skill == lap.call.skill
+
+
+def test_a_recording_keeps_what_was_remembered(laps: list[Lap], tmp_path: Path):
+    notes = ({}, {"stairs": "noted"}, {"stairs": "noted", "height": 0.3})
+    told = [lap._replace(call=replace(lap.call, memory=notes[k // 4 % 3])) for k, lap in enumerate(laps[:20])]
+    again = load(recorded(told).save(tmp_path / "a.npz"))
+    assert [dict(call_at(again, k).memory) for k in range(20)] == [notes[k // 4 % 3] for k in range(20)]
+    with np.load(tmp_path / "a.npz") as arrays:
+        old = {name: arrays[name] for name in arrays.files if name != "memory"}
+    np.savez_compressed(tmp_path / "old.npz", **old)
+    assert call_at(load(tmp_path / "old.npz"), 7).memory == {}
 
 
 def test_the_situation_of_a_recording_is_the_one_that_was_met(laps: list[Lap], filed: Recording):

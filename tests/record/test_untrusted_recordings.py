@@ -70,6 +70,8 @@ def test_a_header_of_another_kind_is_refused(
         ("period", 0.0, "period"),
         ("time", np.nan, "none of its ticks"),
         ("route_points", 1e9, "points"),
+        ("memory", 7.0, "a tick with number 7"),
+        ("memory", -1.0, "a tick with number -1"),
     ],
 )
 def test_numbers_that_mean_nothing_are_refused(

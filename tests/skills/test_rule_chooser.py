@@ -18,8 +18,9 @@ from gaitwright.signals import Scan
 from gaitwright.skills.chooser import DefaultChooser
 from gaitwright.skills.library import speed_scale
 from gaitwright.skills.measured import measured
-from gaitwright.skills.rule_chooser import DOING, RuleChooser, carry_out
+from gaitwright.skills.rule_chooser import RuleChooser, carry_out
 from gaitwright.skills.situation import FOREST, named
+from gaitwright.skills.vocabulary import RULE_IN_USE
 from knowledge.hand_made import rule_of
 from oracles import robot_called
 
@@ -53,7 +54,7 @@ RULES = RuleChooser(DOG, BOOK)
 def test_each_lesson_is_what_it_then_does_and_it_says_by_which_rule():
     for way, skill in ((AHEAD, "trot"), (STAIRS, "climb"), (SIDEWAYS, "turn-in-place")):
         call = RULES.choose(way, sensed())
-        assert (call.skill, call.because, call.memory[DOING]) == (skill, f"rule {skill}: sure", skill)
+        assert (call.skill, call.because, call.memory[RULE_IN_USE]) == (skill, f"rule {skill}: sure", skill)
     grey = RULES.choose(replace(AHEAD, ahead=Scan(familiar=True)), sensed())
     assert grey.skill == "trot" and "not seen just like this" in grey.because
 
@@ -62,7 +63,7 @@ def test_each_lesson_is_what_it_then_does_and_it_says_by_which_rule():
 def test_the_rule_is_the_one_that_consulting_finds(place, yaw, speed, left):
     way, here = route((5.0, 0.0), speed=speed, remaining=left), sensed(place, yaw)
     decision, call = consult(BOOK, situation(DOG, way, here)), RULES.choose(way, here)
-    assert call.memory.get(DOING) == decision.rule
+    assert call.memory.get(RULE_IN_USE) == decision.rule
     assert ("sure" in call.because) == (decision.certainty == "sure")
 
 
@@ -117,6 +118,10 @@ def test_books_about_something_else_and_conditions_that_are_none_are_refused():
     other = Rulebook(Forest((tree("weather", ("dry", "wet")),)))
     with pytest.raises(WrongUse, match="knows nothing of support"):
         RuleChooser(DOG, other)
-    for until, told in (("straight", "is no condition"), ("turn is ahead", "must name leaves of turn")):
+    for until, told in (
+        ("straight", "is no condition"),
+        ("turn is any", "is true at once"),
+        ("turn is round", "no value of turn"),
+    ):
         with pytest.raises(WrongUse, match=told):
             RuleChooser(DOG, taught((Action("trot", 0.1, 0.5, until=until), AHEAD, {})))

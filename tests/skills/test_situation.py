@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -47,7 +48,7 @@ def test_every_moment_has_one_leaf_in_each_tree(scan, place, yaw, speed, arrived
     way = replace(route((5.0, 0.0), (3.0, 1.0), speed=speed, arrived=arrived), ahead=scan)
     here = sensed(place, yaw)
     found = situation(DOG, way, here)
-    assert found.trees == FOREST.names and len(FOREST.names) == 12
+    assert found.trees == FOREST.names and len(FOREST.names) == 15
     assert all(FOREST[tree].is_leaf(leaf) for tree, leaf in found.items())
     raw = measured(DOG, way, here)
     assert all(math.isfinite(number) for number in raw.values()) and set(raw) == {*READ_FROM, "grip"}
@@ -118,6 +119,31 @@ def test_effort_is_the_static_torque_of_the_loads(name):
             torque = here.load[leg] * (ends[0] - ends[1]) / 2e-5
             most = max(most, abs(torque) / robot.tau_max[leg, joint])
     assert torque_utilisation(robot, here) == pytest.approx(most, rel=1e-6) and most > 0.0
+
+
+@pytest.mark.parametrize("robot", [DOG, INSECT])
+def test_the_leg_setting_names_the_side_that_carries(robot):
+    def setting(loaded) -> str:
+        load = np.where(loaded, 1.0, 0.0) * robot.total_mass
+        here = replace(sensed(), load=load, q=np.zeros((robot.n, 3)), qd=np.zeros((robot.n, 3)))
+        return str(situation(robot, route((5.0, 0.0)), here)["leg setting"])
+
+    x, y = robot.hip[:, 0], robot.hip[:, 1]
+    sides = {"front feet": x > 0.01, "hind feet": x < -0.01, "left feet": y > 0.0, "right feet": y < 0.0}
+    for name, loaded in sides.items():
+        assert setting(loaded) == name
+    assert setting(np.ones(robot.n, bool)) == "all feet" and setting(np.zeros(robot.n, bool)) == "no feet"
+    assert setting(((x > 0.01) & (y > 0.0)) | ((x < -0.01) & (y < 0.0))) == "feet across"
+
+
+def test_where_the_way_began_and_ends_are_streets():
+    way = replace(route((5.0, 0.0)), begins=math.pi / 2, ends=math.pi)
+    found = situation(DOG, way, sensed())
+    assert (found["initial location"], found["street"], found["final location"]) == ("north", "east", "west")
+    nobody = situation(DOG, route((5.0, 0.0)), sensed())
+    assert nobody["initial location"] == nobody["final location"] == "east", (
+        "an older recording: as it leads now"
+    )
 
 
 def test_what_it_does_is_the_kind_of_motion():

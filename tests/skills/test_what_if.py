@@ -3,7 +3,7 @@
 from functools import cache
 
 from gaitwright.knowledge.memory import Action
-from gaitwright.learning.skill_pupil import SkillPupil, facts_of, told_at
+from gaitwright.learning.skill_pupil import SkillPupil, told_at
 from gaitwright.learning.teacher import ScriptedTeacher, Shown
 from gaitwright.skills.rule_chooser import RuleChooser
 from gaitwright.skills.situation import named
@@ -39,7 +39,7 @@ def fires(facts) -> str:
 def test_every_answer_comes_true_and_changes_no_more_than_it_must():
     found = 0
     for one in ROADS:
-        facts = facts_of(one)
+        facts = one.facts
         for to in ("", *(rule.name for rule in rules().rules)):
             answer = what_if(rules(), facts, to)
             if not answer.changes:
@@ -61,12 +61,12 @@ def test_it_speaks_of_numbers_as_people_do():
         for action, grip in ((Action("trot", 0.2, 1.0), 0.8), (Action("walk", 0.1, 0.3), 0.2)):
             shown = Shown(action.skill, action, about="grip")
             pupil.hear(told_at(moment(grip=grip, possible=0.5 + k / 40), shown, f"scene {k % 3}"))
-    answer = what_if(pupil.rulebook(), facts_of(moment(grip=0.3)), "trot")
+    answer = what_if(pupil.rulebook(), moment(grip=0.3).facts, "trot")
     assert answer.sentence == "trot would fire if the grip of the ground were at least 0.5 instead of 0.3"
-    nothing = what_if(pupil.rulebook(), facts_of(moment(grip=0.3)), "fly")
+    nothing = what_if(pupil.rulebook(), moment(grip=0.3).facts, "fly")
     assert nothing.changes == () and "no change" in nothing.sentence
 
 
 def test_who_has_arrived_or_not_is_said_in_words():
-    answer = what_if(rules(), facts_of(moment()), "stop")
+    answer = what_if(rules(), moment().facts, "stop")
     assert answer.sentence == "stop would fire if it had arrived"

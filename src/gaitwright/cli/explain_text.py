@@ -44,6 +44,10 @@ def sentence_of(rulebook: Rulebook, rule: Rule) -> str:
     met = [condition(tree, marks.upper) for tree, marks in trees if marks.upper != ROOT]
     grey = [tree.name for tree, marks in trees if marks.upper != marks.lower]
     sentence = f"fires when {listed(met)}" if met else "fires wherever none before it does"
+    if rule.action.until:
+        sentence += f", and goes on until {rule.action.until}"
+    changes = {"notes": [name for name, _ in rule.action.adds], "forgets": rule.action.deletes}
+    sentence += "".join(f"; {verb} {listed(names)}" for verb, names in changes.items() if names)
     if not grey:
         return f"{sentence}, and that is sure"
     return f"{sentence}; grey in {len(grey)} of {len(trees)} trees"

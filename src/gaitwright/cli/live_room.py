@@ -5,19 +5,18 @@ from collections.abc import Callable
 
 from gaitwright.cli.console import remark, show_pairs, show_prose
 from gaitwright.cli.explain_text import because, counted, sentence_of
-from gaitwright.cli.live_text import Said, number, spoken, tell_events, tell_tried
+from gaitwright.cli.live_text import Said, number, tell_events, tell_tried
 from gaitwright.errors import BadFile, GaitwrightError, WrongUse, unknown
 from gaitwright.knowledge.consult import consult
 from gaitwright.knowledge.explain import why_not
-from gaitwright.knowledge.memory import Action
+from gaitwright.knowledge.memory import Action, said_of
 from gaitwright.learning.live import LiveLessons, Tried
 from gaitwright.learning.live_sources import Played, Running
-from gaitwright.learning.said_action import said_action
-from gaitwright.learning.skill_pupil import facts_of, kind_of, told_at
+from gaitwright.learning.said_action import Words, said_action
+from gaitwright.learning.skill_pupil import kind_of, told_at
 from gaitwright.learning.teacher import Shown
 from gaitwright.model.robot import Robot
 from gaitwright.skills.book_trees import in_trees_of
-from gaitwright.skills.vocabulary import VOCABULARY
 from gaitwright.skills.what_if import what_if
 
 AT_ONCE = 10.0
@@ -28,7 +27,8 @@ HELP = (
     (
         "right SKILL …",
         "what would be right here: right walk, right walk 0.1 0.25 (m/s, of a robot 0.29 m tall), and, where "
-        "you like, because NUMBER (what decides), as NAME (what the rule is called), until 'TREE is VALUE'",
+        "you like, because NUMBER (what decides), as NAME (what the rule is called), until 'TREE is VALUE', "
+        "note NAME and drop NAME (what it remembers, or no more; rules may go by it: because NAME)",
     ),
     ("ok", "what it does here is right"),
     ("keep, back", "learn what was just tried, or not"),
@@ -107,7 +107,7 @@ class Room:
         """Where it is, what is used, what the rules say."""
         seen, over = self.source.here(), self.source.over
         chosen = self.lessons.pupil.choose(seen.moment)
-        says = "nothing yet" if chosen.action is None else spoken(chosen.action)
+        says = "nothing yet" if chosen.action is None else said_of(chosen.action)
         sure = ", and that is sure" if chosen.sure else ""
         show_prose(f"{seen.time:.2f} s: {seen.skill}; the rules say {says}{sure}.")
         if over:
@@ -116,9 +116,10 @@ class Room:
     # --- teaching ----------------------------------------------------------------------------------
     def right(self, words: list[str]) -> None:
         said = Said(words)
-        action = said_action(said.skill, self.robot, said.speed, said.until, self.lessons.pupil.actions)
-        if said.about and said.about not in VOCABULARY.names:
-            raise unknown("number", said.about, VOCABULARY.names)
+        pupil = self.lessons.pupil
+        action = said_action(said.words, self.robot, pupil.actions)
+        if said.about and said.about not in pupil.vocabulary.names:
+            raise unknown("number", said.about, pupil.vocabulary.names)
         self.try_out(action, said.name or self.lessons.pupil.name_of(action), said.about)
 
     def ok(self, words: list[str]) -> None:
@@ -126,7 +127,7 @@ class Room:
         seen = self.source.here()
         action = self.lessons.pupil.choose(seen.moment).action
         if action is None or action.skill != seen.skill:
-            action = said_action(seen.skill, self.robot, known=self.lessons.pupil.actions)
+            action = said_action(Words(seen.skill), self.robot, self.lessons.pupil.actions)
         self.try_out(action, self.lessons.pupil.name_of(action), "")
         self.keep([])
 
@@ -169,7 +170,7 @@ class Room:
     # --- asking ------------------------------------------------------------------------------------
     def why(self, words: list[str]) -> None:
         book, moment = self.lessons.ledger.book.rulebook, self.source.here().moment
-        situation = in_trees_of(book, moment.situation, moment.raw)
+        situation = in_trees_of(book, moment.situation, moment.facts)
         if words:
             show_prose(why_not(book, " ".join(words), situation))
             return
@@ -177,10 +178,10 @@ class Room:
         sentence = because(book, decision)
         show_prose(sentence if sentence.endswith(".") else f"{sentence}.")
         if decision.rule is not None:
-            show_prose(f"{what_if(book, facts_of(moment)).sentence}.")
+            show_prose(f"{what_if(book, moment.facts).sentence}.")
 
     def look(self, words: list[str]) -> None:
-        facts = facts_of(self.source.here().moment)
+        facts = self.source.here().moment.facts
         pairs = [(n, f if isinstance(f, str) else f"{f:.3g}") for n, f in facts.items()]
         show_pairs("", pairs, to_stderr=False)
 

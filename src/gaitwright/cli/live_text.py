@@ -3,15 +3,17 @@
 from gaitwright.cli.console import show_prose
 from gaitwright.cli.explain_text import counted
 from gaitwright.errors import WrongUse
-from gaitwright.knowledge.memory import Action
+from gaitwright.knowledge.memory import said_of
 from gaitwright.knowledge.rules import Event
 from gaitwright.knowledge.told import Told
 from gaitwright.learning.live import Seen, Stretch, Tried
+from gaitwright.learning.said_action import Words
 
 FEW = 3
 """So many lessons and stretches are named."""
-CLAUSES = {"because": "about", "as": "name", "until": "until"}
-"""Words that may follow a skill, and what they say."""
+CLAUSES = {"because": "about", "as": "name", "until": "until", "note": "notes", "drop": "drops"}
+"""Words that may follow a skill, and what they say; notes more than once."""
+CLAUSES_SAID = "because NUMBER, as NAME, note NAME, drop NAME, or until 'TREE is VALUE'"
 
 
 class Said:
@@ -24,6 +26,8 @@ class Said:
         self.skill, rest = words[0], words[1:]
         self.speed: tuple[float, float] | None = None
         self.about = self.name = self.until = ""
+        self.notes: tuple[str, ...] = ()
+        self.drops: tuple[str, ...] = ()
         if rest and rest[0] not in CLAUSES:
             fastest = number(rest[1], "right") if len(rest) > 1 and rest[1][:1].isdigit() else None
             slowest = number(rest[0], "right")
@@ -36,9 +40,15 @@ class Said:
                     break
                 value.append(value_word)
             if word not in CLAUSES or not value:
-                raise WrongUse(f"{' '.join(rest)!r}: write because NUMBER, as NAME, or until 'TREE is VALUE'")
-            setattr(self, CLAUSES[word], " ".join(value))
+                raise WrongUse(f"{' '.join(rest)!r}: write {CLAUSES_SAID}")
+            said, before = " ".join(value), getattr(self, CLAUSES[word])
+            setattr(self, CLAUSES[word], (*before, said) if isinstance(before, tuple) else said)
             rest = rest[1 + len(value) :]
+
+    @property
+    def words(self) -> Words:
+        """What is said of the action."""
+        return Words(self.skill, self.speed, self.until, self.notes, self.drops)
 
 
 def number(word: str, of: str) -> float:
@@ -57,7 +67,7 @@ def tell_tried(tried: Tried, seen: Seen) -> None:
     """What a lesson would do, before it is kept."""
     told = tried.told
     reason = f", because of {told.about} ({fact_text(told)})" if told.about else ""
-    show_prose(f"At {seen.time:.2f} s {spoken(told.action)} is right{reason}.")
+    show_prose(f"At {seen.time:.2f} s {said_of(told.action)} is right{reason}.")
     if not tried.is_followed:
         show_prose("She would set that aside: it contradicts too much of what was taught.", 2)
     tell_events(tried.taken.events)
@@ -89,17 +99,8 @@ def stretch_text(stretch: Stretch) -> str:
         if stretch.begin == stretch.end
         else f"{stretch.begin:.1f} to {stretch.end:.1f} s"
     )
-    old, new = ("nothing" if a is None else spoken(a) for a in (stretch.before, stretch.after))
+    old, new = ("nothing" if a is None else said_of(a) for a in (stretch.before, stretch.after))
     return f"{when}: {new} instead of {old}"
-
-
-def spoken(action: Action) -> str:
-    """An action in a few words."""
-    if action.fastest <= 0.0:
-        return action.skill
-    if action.slowest == action.fastest:
-        return f"{action.skill} at {action.fastest:g} m/s"
-    return f"{action.skill} at {action.slowest:g} to {action.fastest:g} m/s"
 
 
 def fact_text(told: Told) -> str:

@@ -9,7 +9,7 @@ from gaitwright.record.moment import call_at, route_at, sensed_at
 from gaitwright.record.recording import Recording, load
 from gaitwright.skills.measured import measured
 from gaitwright.skills.situation import named
-from gaitwright.skills.vocabulary import VOCABULARY
+from gaitwright.skills.vocabulary import KEPT, VOCABULARY
 from gaitwright.skills.wording import NUMBERS
 
 
@@ -51,5 +51,11 @@ def situation_at(recording: Recording, tick: int) -> dict[str, Fact]:
     before = call_at(recording, max(0, tick - 1))  # what it had been doing when it chose
     raw = measured(recording.robot, route, sensed_at(recording, tick), before)
     leaves = {tree: leaf for tree, leaf in named(raw, before).items() if leaf is not None}
+    notes = {name: fact for name, fact in before.memory.items() if name not in KEPT}
     numbers = {column.name: column.read(raw) for column in VOCABULARY.columns if not column.values}
-    return {**leaves, **{tree: VOCABULARY.columns[k].read(raw) for tree, k in NUMBERS.items()}, **numbers}
+    return {
+        **notes,
+        **leaves,
+        **{tree: VOCABULARY.columns[k].read(raw) for tree, k in NUMBERS.items()},
+        **numbers,
+    }

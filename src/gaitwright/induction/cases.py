@@ -101,6 +101,20 @@ def with_case(
     )
 
 
+def widened(
+    cases: Cases, reads: Bool[np.ndarray, "columns facts"], price: Float[np.ndarray, " columns"]
+) -> Cases:
+    """The table with further columns, at the end: 0 in every case so far."""
+    more = len(price) - len(cases.price)
+    return cases._replace(
+        x=np.vstack([cases.x, np.zeros((more, cases.n))]),
+        order=np.vstack([cases.order, np.tile(np.arange(cases.n), (more, 1))]),
+        reads=reads,
+        named=np.hstack([cases.named, np.zeros((len(cases.named), more), np.bool_)]),
+        price=price,
+    )
+
+
 def picked(cases: Cases, which: Sequence[int] | Int[np.ndarray, " some"]) -> Cases:
     """Some of the cases, in the order in which they are named."""
     x = np.ascontiguousarray(cases.x[:, which])

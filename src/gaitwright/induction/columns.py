@@ -96,6 +96,8 @@ class Vocabulary:
     plain: np.ndarray = field(init=False, repr=False, compare=False)
     """Places of the columns that are one measured number each."""
     known: tuple[tuple[float, ...], ...] = field(init=False, repr=False, compare=False)
+    places: Mapping[str, int] = field(init=False, repr=False, compare=False)
+    """The place of each column by its name: names are what files and people know."""
 
     def __post_init__(self) -> None:
         """Derives the columns. Raises `WrongUse` for two facts of one name."""
@@ -109,6 +111,7 @@ class Vocabulary:
         derive(self, "price", np.array([c.price for c in columns]))
         derive(self, "plain", np.flatnonzero([c.form == "is" and not c.values for c in columns]))
         derive(self, "known", tuple(c.known for c in columns))
+        derive(self, "places", {c.name: k for k, c in enumerate(columns)})
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -128,13 +131,16 @@ class Vocabulary:
 
 
 def columns_of(facts: Sequence[Quantity | Names]) -> tuple[Column, ...]:
-    """The columns of facts: plain ones first, then sizes, names, and comparisons of two."""
+    """The columns of facts: plain ones first, then sizes, comparisons of two, and names.
+
+    Names come last, so that a further fact with names moves no column from its place.
+    """
     numbers = [fact for fact in facts if isinstance(fact, Quantity)]
     plain = [Column(q.name, "is", (q.name,), 0.0, q.known, q.unit, said=spoken_of(q)) for q in numbers]
     sizes = [size_of(q) for q in numbers if q.signed]
     named = [column for fact in facts if isinstance(fact, Names) for column in named_columns(fact)]
     pairs = [column for a, b in combinations(numbers, 2) for column in compared(a, b)]
-    return (*plain, *sizes, *named, *pairs)
+    return (*plain, *sizes, *pairs, *named)
 
 
 def spoken_of(q: Quantity) -> str:

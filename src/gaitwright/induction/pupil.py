@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from gaitwright.induction.cases import NOBODY, Cases, no_cases, table_of, with_case
+from gaitwright.induction.cases import NOBODY, Cases, no_cases, table_of, widened, with_case
 from gaitwright.induction.columns import Vocabulary
 from gaitwright.induction.decision_list import Lines, actions_of, fired
 from gaitwright.induction.drift import WINDOW, Drift
@@ -182,6 +182,13 @@ class Pupil:
         else:
             self.lines = lightened(self.lines, self.cases, rule)
             self.lines = settled(self.lines, self.cases, self.vocabulary.known, before)
+        self.standing = standing_of(self.lines, self.cases, self.scene, self.since)
+
+    def widen(self, vocabulary: Vocabulary) -> None:
+        """More facts to go by, which hold in nothing that was taught so far: each is a name, so that every
+        column stays in its place."""
+        self.vocabulary, self._widest = vocabulary, None
+        self.cases = widened(self.cases, vocabulary.reads, vocabulary.price)
         self.standing = standing_of(self.lines, self.cases, self.scene, self.since)
 
     def trust(self, verdict: Verdict, is_right: bool) -> None:

@@ -4,8 +4,8 @@ A bound that no tree has cuts the leaf that it lies in; a number that no tree re
 upper mark in a tree is what its conditions there allow, its lower mark what it was right at.
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from jaxtyping import Bool, Int
@@ -33,6 +33,8 @@ class Lessons:
     actions: Sequence[Action]
     names: Sequence[str]
     """What the teacher called the rule, case by case."""
+    ends: Mapping[int, Bound] = field(default_factory=dict)
+    """While which number lies where an action goes on that was begun, by the action's place."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +54,11 @@ def expressed(
     lines: Lines, cases: Cases, standing: Standing, vocabulary: Vocabulary, wording: Wording, taught: Lessons
 ) -> Rulebook:
     """The rulebook that decides as the list does."""
-    forest = forest_for(lines, vocabulary, wording)
+    forest = forest_for(lines, vocabulary, wording, taught.ends.values())
+    actions = [
+        replace(action, until=action.until or until_text(forest, vocabulary, wording, taught.ends.get(a)))
+        for a, action in enumerate(taught.actions)
+    ]
     numbers = number_columns(vocabulary, wording)
     sets = leaf_sets(forest, cases, numbers, taught.instances)
     rules: list[Rule] = []
@@ -65,7 +71,7 @@ def expressed(
         rights, wrongs = witnesses(lines, r, cases, standing)
         rule = Rule(
             name,
-            taught.actions[action],
+            actions[action],
             marks_of(forest, upper, sets[mine]),
             tuple(shown(forest, vocabulary, numbers, taught.instances[k], "positive") for k in rights),
             tuple(shown(forest, vocabulary, numbers, taught.instances[k], "commission") for k in wrongs),
@@ -76,10 +82,11 @@ def expressed(
 
 
 # --- trees -----------------------------------------------------------------------------------------
-def forest_for(lines: Lines, vocabulary: Vocabulary, wording: Wording) -> Forest:
-    """The trees with every bound of a list in them, and new ones for numbers that none of them reads."""
+def forest_for(lines: Lines, vocabulary: Vocabulary, wording: Wording, more: Iterable[Bound] = ()) -> Forest:
+    """The trees with every bound of a list, and some more, in them, and new ones for numbers that none of
+    them reads."""
     needed: dict[str, tuple[Column, set[float]]] = {}
-    for bound in (bound for rule in lines.rules for bound in rule.bounds):
+    for bound in (*(bound for rule in lines.rules for bound in rule.bounds), *more):
         column = vocabulary.columns[bound.column]
         if not column.values:
             cuts = needed.setdefault(wording.of(column), (column, set()))[1]
@@ -96,6 +103,15 @@ def forest_for(lines: Lines, vocabulary: Vocabulary, wording: Wording) -> Forest
         for name, (column, cuts) in needed.items()
     ]
     return Forest((*trees, *new))
+
+
+def until_text(forest: Forest, vocabulary: Vocabulary, wording: Wording, bound: Bound | None) -> str:
+    """The condition that holds outside of a bound on a number; none where there is no bound."""
+    if bound is None:
+        return ""
+    tree = forest[wording.of(vocabulary.columns[bound.column])]
+    inside = run_of(tree, bound.low, bound.high)
+    return f"{tree.name} is {tree.label_of(((1 << len(tree.leaves)) - 1) & ~inside)}"
 
 
 def number_columns(vocabulary: Vocabulary, wording: Wording) -> dict[str, int]:

@@ -1,7 +1,7 @@
 """Working memory: named facts about the world and the goals, edited by what rules add and delete (row L1)."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 
@@ -34,6 +34,40 @@ class Action:
             raise WrongUse("an action names a skill")
         if not -math.inf < self.slowest <= self.fastest < math.inf:  # NaN is refused too
             raise WrongUse(f"{self.skill}: speeds from {self.slowest} to {self.fastest} are no range")
+
+
+NOTED, NOT_NOTED = "noted", "not noted"
+"""What working memory says of a note that a teacher makes by its name, and of one that is not made."""
+
+
+def noting(names: Sequence[str]) -> tuple[tuple[str, Fact], ...]:
+    """What an action adds that makes these notes."""
+    return tuple((name, NOTED) for name in names)
+
+
+def notes_in(action: Action) -> tuple[str, ...]:
+    """The notes that an action makes."""
+    return tuple(name for name, fact in action.adds if fact == NOTED)
+
+
+def read_notes(names: Iterable[str], facts: Memory) -> dict[str, Fact]:
+    """Whether each note is made, by what is remembered."""
+    return {name: NOTED if facts.get(name) == NOTED else NOT_NOTED for name in names}
+
+
+def said_of(action: Action) -> str:
+    """An action in a few words."""
+    text = action.skill
+    if action.fastest > 0.0:
+        single = action.slowest == action.fastest
+        text += f" at {'' if single else f'{action.slowest:g} to '}{action.fastest:g} m/s"
+    if action.until:
+        text += f" until {action.until}"
+    if action.adds:
+        text += f", noting {' and '.join(name for name, _ in action.adds)}"
+    if action.deletes:
+        text += f", forgetting {' and '.join(action.deletes)}"
+    return text
 
 
 def remembered(facts: Mapping[str, Fact]) -> Memory:

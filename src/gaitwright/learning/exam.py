@@ -14,7 +14,10 @@ from gaitwright.learning.trips import EXAM, trips
 from gaitwright.model.robot import Robot
 from gaitwright.skills.situation import FOREST, named
 
-ASIDE = ("feet down", "remaining", "points left", "effort", "direction", "familiar", "speed", "wished")
+ASIDE = (
+    *("feet down", "front feet", "hind feet", "left feet", "right feet", "effort", "speed", "wished"),
+    *("remaining", "points left", "direction", "direction at the start", "direction at the end", "familiar"),
+)
 """Numbers that vary freely from variant to variant of one fault."""
 JITTER = 0.05
 """All other numbers vary by this share."""
@@ -51,7 +54,7 @@ def examined(pupil: SkillPupil, teacher: Teacher, moments: Sequence[DecisionPoin
 def rights(pupil: SkillPupil, teacher: Teacher, moments: Sequence[DecisionPoint]) -> np.ndarray:
     """Whether the pupil would do what the teacher would, moment by moment."""
     done = pupil.choose_all(moments)
-    wanted = [teacher.ideal(moment.raw).action for moment in moments]
+    wanted = [teacher.ideal(moment.facts).action for moment in moments]
     return np.array([choice.action == action for choice, action in zip(done, wanted, strict=True)])
 
 
@@ -90,7 +93,7 @@ def trial(
     unseen = alike(pupil, drawn, pupil.choose(fault).action)
     before = rights(pupil, teacher, pool)
     after = pupil.copied()
-    after.hear(told_at(fault, teacher.ideal(fault.raw), "the fault"))
+    after.hear(told_at(fault, teacher.ideal(fault.facts), "the fault"))
     still = rights(after, teacher, pool)
     mended = int(rights(after, teacher, unseen).sum()) if unseen else 0
     return Trial(fault, len(unseen), mended, int(before.sum()), int((before & ~still).sum()))
@@ -111,15 +114,15 @@ def variants(
 ) -> list[DecisionPoint]:
     """The same fault in other circumstances: what the teacher does not go by is taken from other moments, the
     rest varies a little; only such at which she would do the same."""
-    right, found = teacher.ideal(fault.raw), []
+    right, found = teacher.ideal(fault.facts), []
     for k in rng.permutation(len(pool))[: 3 * n].tolist():
         raw = {
             name: value * float(rng.uniform(1.0 - JITTER, 1.0 + JITTER)) for name, value in fault.raw.items()
         }
         raw |= {name: fault.raw[name] for name in ("arrived", "turning")}
         raw |= {name: pool[k].raw[name] for name in ASIDE}
-        if teacher.ideal(raw).action != right.action:
-            continue
         situation = replace_value(FOREST, named(raw), "doing", str(fault.situation["doing"]))
-        found.append(DecisionPoint(f"{fault.id}, variant {k}", situation, raw, fault.memory))
+        variant = DecisionPoint(f"{fault.id}, variant {k}", situation, raw, fault.memory)
+        if teacher.ideal(variant.facts).action == right.action:
+            found.append(variant)
     return found[:n]

@@ -12,8 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gaitwright.ground.scene import Scene
-from gaitwright.knowledge.memory import remembered
-from gaitwright.learning.decision_point import DecisionPoint
+from gaitwright.learning.decision_point import DecisionPoint, decision_point
 from gaitwright.model.kinematics import angles
 from gaitwright.model.robot import Robot
 from gaitwright.navigation.navigator import Navigator, Travelled
@@ -21,7 +20,6 @@ from gaitwright.numerics.geometry import GRAVITY, quaternion_of, upright_rotatio
 from gaitwright.perception.known_ground import KnownGround
 from gaitwright.signals import Mission, Route, Sensed, SkillCall
 from gaitwright.skills.measured import measured
-from gaitwright.skills.situation import named
 
 Driver = Callable[[Route, Sensed, SkillCall | None], SkillCall]
 """Who chooses the skills."""
@@ -59,8 +57,7 @@ def moments_of(course: Course, driver: Driver, rng: np.random.Generator) -> list
     for k in range(LONGEST):
         route = met(course, route, rng)
         raw = measured(course.robot, route, sensed, now)
-        memory = remembered(now.memory if now else {})
-        moments.append(DecisionPoint(f"{course.name}, moment {k + 1}", named(raw, now), raw, memory))
+        moments.append(decision_point(f"{course.name}, moment {k + 1}", raw, now))
         now = driver(route, sensed, now)
         if route.arrived or not route.path:
             break

@@ -4,7 +4,7 @@ The one door for whoever talks with the person: a terminal, or a page.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from gaitwright.errors import WrongUse
 from gaitwright.knowledge.memory import Action
@@ -62,9 +62,11 @@ class LiveLessons:
     seen: list[Seen] = field(default_factory=list)
 
     def tried(self, told: Told) -> Tried:
-        """What a lesson would do. Raises `WrongUse` where one of that name was kept before."""
-        if told.id in names_told(self.ledger.book.steps):
+        """What a lesson would do. Raises `WrongUse` where one of that name counts already; one that was
+        forgotten keeps its name, and this gets another."""
+        if told.id in {one.id for one in self.pupil.told}:
             raise WrongUse(f"{told.id} was taught before: `forget` it first, or go on a little")
+        told = replace(told, id=self.unused(told.id))
         before, after = self.pupil, self.pupil.copied()
         taken = after.hear(told)
         moments = [seen.moment for seen in self.seen]

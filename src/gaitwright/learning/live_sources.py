@@ -6,7 +6,7 @@ import numpy as np
 
 from gaitwright.errors import WrongUse
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.learning.decision_point import DecisionPoint
+from gaitwright.learning.decision_point import decision_point
 from gaitwright.learning.live import Seen
 from gaitwright.model.robot import Robot
 from gaitwright.record.moment import call_at, route_at, sensed_at
@@ -16,7 +16,6 @@ from gaitwright.signals import Route, Sensed, SkillCall
 from gaitwright.skills.foothold_guard import FootholdGuard
 from gaitwright.skills.measured import measured
 from gaitwright.skills.rule_chooser import RuleChooser
-from gaitwright.skills.situation import named
 
 EVERY = 0.2
 """Moments are looked at this often [s]."""
@@ -112,5 +111,4 @@ class Played:
 def seen_at(name: str, time: float, robot: Robot, route: Route, sensed: Sensed, call: SkillCall) -> Seen:
     """A moment as a pupil is asked about it: what was measured, and what the robot has been doing."""
     raw = measured(robot, route, sensed, call)
-    point = DecisionPoint(f"{name} at {time:.2f} s", named(raw, call), raw, dict(call.memory))
-    return Seen(time, point, call.skill)
+    return Seen(time, decision_point(f"{name} at {time:.2f} s", raw, call), call.skill)

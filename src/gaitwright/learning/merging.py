@@ -4,7 +4,7 @@ from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from gaitwright.errors import WrongUse
-from gaitwright.knowledge.memory import Action
+from gaitwright.knowledge.memory import Action, said_of
 from gaitwright.knowledge.told import Told
 from gaitwright.learning.notes import pupil_of, with_steps
 from gaitwright.learning.older_books import told_by
@@ -130,7 +130,7 @@ class Joining:
         """That both were told different things at the very same moment."""
         ours, theirs = mine.rule, other.rule
         if ours == theirs:
-            ours, theirs = action_text(mine.action), action_text(other.action)
+            ours, theirs = said_of(mine.action), said_of(other.action)
         sentence = (
             f"at one and the same moment {mine.id} of {self.our_name} teaches {ours} and {other.id} of "
             f"{self.their_name} {theirs}: ours stays"
@@ -142,7 +142,7 @@ class Joining:
         book = self.our_name if of_ours else self.their_name
         for told, action in zip(lessons, decided(pupil, lessons), strict=True):
             if action is not None and action != told.action:
-                instead = action.skill if action.skill != told.action.skill else action_text(action)
+                instead = action.skill if action.skill != told.action.skill else said_of(action)
                 sentence = (
                     f"{told.id} of {book} teaches {told.rule}, and the joined book does {instead} there"
                 )
@@ -191,12 +191,6 @@ def followed(pupil: SkillPupil, lessons: Sequence[Told]) -> list[Told]:
 def decided(pupil: SkillPupil, lessons: Sequence[Told]) -> list[Action | None]:
     """What a pupil does at the moments of some lessons; `None` before her first one."""
     return [choice.action for choice in pupil.choose_at([told.facts for told in lessons])]
-
-
-def action_text(action: Action) -> str:
-    """An action with its speeds and its condition."""
-    until = f" until {action.until}" if action.until else ""
-    return f"{action.skill} at {action.slowest:g} to {action.fastest:g} m/s{until}"
 
 
 # --- books -----------------------------------------------------------------------------------------

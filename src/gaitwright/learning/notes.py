@@ -7,16 +7,16 @@ import numpy as np
 
 from gaitwright.errors import BadFile
 from gaitwright.induction.cases import no_cases, table_of
+from gaitwright.induction.columns import Vocabulary
 from gaitwright.induction.decision_list import Bound, Lines, RuleLine
 from gaitwright.induction.standing import standing_of
 from gaitwright.knowledge.rules import Event, Rulebook
 from gaitwright.knowledge.told import Told
-from gaitwright.learning.skill_pupil import SkillPupil, instance_of
+from gaitwright.learning.skill_pupil import SkillPupil
 from gaitwright.skillbook.book import Skillbook
 from gaitwright.skillbook.history import Step, all_told, forgotten
 from gaitwright.skillbook.pupil_notes import ColumnBound, ListedRule, PupilNotes, RuleList
 from gaitwright.skillbook.writer import Ledger
-from gaitwright.skills.vocabulary import COLUMN_PLACES, VOCABULARY
 
 
 def notes_of(taught: SkillPupil, heard: int) -> PupilNotes:
@@ -26,9 +26,9 @@ def notes_of(taught: SkillPupil, heard: int) -> PupilNotes:
     return PupilNotes(
         heard,
         pupil.seed,
-        listed(pupil.lines),
-        tuple(listed(rival) for rival in pupil.rivals),
-        None if pupil.draft is None else listed(pupil.draft),
+        listed(pupil.lines, taught.vocabulary),
+        tuple(listed(rival, taught.vocabulary) for rival in pupil.rivals),
+        None if pupil.draft is None else listed(pupil.draft, taught.vocabulary),
         pupil.age,
         pupil.drafts,
         pupil.since,
@@ -69,7 +69,7 @@ def pupil_as_noted(book: Skillbook) -> tuple[SkillPupil, list[Told]]:
     for one in heard:
         taught.note(one)
     taught.told = [one for one in heard if one.id not in gone]
-    taught.instances = [instance_of(one) for one in taught.told]
+    taught.instances = [taught.instance_of(one) for one in taught.told]
     restore(taught, notes, book.name)
     return taught, told[notes.heard :]
 
@@ -80,51 +80,53 @@ def restore(taught: SkillPupil, notes: PupilNotes, source: str) -> None:
     if len(notes.surprises) != n or notes.since > n or any(case >= n for case, _ in notes.weights):
         raise BadFile(f"{source}: the notes on its pupil are about other lessons than it holds")
     lessons = [taught.lesson_of(told) for told in taught.told]
-    empty = no_cases(VOCABULARY.reads, VOCABULARY.price)
-    rows = np.array([lesson.row for lesson in lessons]).reshape(n, len(VOCABULARY.columns))
+    empty = no_cases(taught.vocabulary.reads, taught.vocabulary.price)
+    rows = np.array([lesson.row for lesson in lessons]).reshape(n, len(taught.vocabulary.columns))
     numbers = np.array([(lesson.action, lesson.reason, lesson.scene) for lesson in lessons], np.int64)
     actions, reasons, scenes = np.ascontiguousarray(numbers.reshape(n, 3).T)
     pupil.cases = table_of(rows, actions, reasons, len(taught.kinds), empty)
-    for case, weight in notes.weights:
-        pupil.cases.weight[case] = weight
     pupil.scene = scenes
-    pupil.lines = lines_of(notes.own, source)
-    pupil.rivals = [lines_of(rival, source) for rival in notes.rivals]
-    pupil.draft = None if notes.draft is None else lines_of(notes.draft, source)
+    pupil.lines = lines_of(notes.own, taught.vocabulary, source)
+    pupil.rivals = [lines_of(rival, taught.vocabulary, source) for rival in notes.rivals]
+    pupil.draft = None if notes.draft is None else lines_of(notes.draft, taught.vocabulary, source)
     pupil.age, pupil.drafts, pupil.since = notes.age, notes.drafts, notes.since
     pupil.surprises = [mark == "1" for mark in notes.surprises]
     pupil.drift.mistakes = [mark == "1" for mark in notes.mistakes]
+    taught.said = np.zeros(n, np.bool_)
+    taught.learn_ends("")
+    pupil.cases.weight[:] = 1.0
+    for case, weight in notes.weights:
+        pupil.cases.weight[case] = weight
     pupil.standing = standing_of(pupil.lines, pupil.cases, pupil.scene, pupil.since)
 
 
-def listed(lines: Lines) -> RuleList:
+def listed(lines: Lines, vocabulary: Vocabulary) -> RuleList:
     """A list with its columns by their names."""
-    rules = (ListedRule(rule.action, tuple(map(listed_bound, rule.bounds))) for rule in lines.rules)
+
+    def named(bound: Bound) -> ColumnBound:
+        low, high = (float(end) if np.isfinite(end) else None for end in (bound.low, bound.high))
+        return ColumnBound(vocabulary.columns[bound.column].name, low, high)
+
+    rules = (ListedRule(rule.action, tuple(map(named, rule.bounds))) for rule in lines.rules)
     return RuleList(tuple(rules), lines.otherwise)
 
 
-def listed_bound(bound: Bound) -> ColumnBound:
-    """One condition, its open ends without a number."""
-    low, high = (float(end) if np.isfinite(end) else None for end in (bound.low, bound.high))
-    return ColumnBound(VOCABULARY.columns[bound.column].name, low, high)
-
-
-def lines_of(rules: RuleList, source: str) -> Lines:
+def lines_of(rules: RuleList, vocabulary: Vocabulary, source: str) -> Lines:
     """A list with its columns by their places. Raises `BadFile` for one that is not known here."""
-    return Lines(tuple(line_of(rule, source) for rule in rules.rules), rules.otherwise)
+    return Lines(tuple(line_of(rule, vocabulary, source) for rule in rules.rules), rules.otherwise)
 
 
-def line_of(rule: ListedRule, source: str) -> RuleLine:
+def line_of(rule: ListedRule, vocabulary: Vocabulary, source: str) -> RuleLine:
     bounds = []
     for bound in rule.bounds:
-        if bound.column not in COLUMN_PLACES:
+        if bound.column not in vocabulary.places:
             raise BadFile(
                 f"{source}: its rules ask for {bound.column!r}, which nobody measures here: it was taught by "
                 "another version"
             )
         low = -np.inf if bound.low is None else bound.low
         high = np.inf if bound.high is None else bound.high
-        bounds.append(Bound(COLUMN_PLACES[bound.column], float(low), float(high)))
+        bounds.append(Bound(vocabulary.places[bound.column], float(low), float(high)))
     return RuleLine(rule.action, tuple(bounds))
 
 

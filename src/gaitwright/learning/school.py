@@ -13,11 +13,11 @@ from types import MappingProxyType
 
 import numpy as np
 
-from gaitwright.knowledge.memory import remembered
+from gaitwright.knowledge.memory import applied
 from gaitwright.knowledge.rules import Event
 from gaitwright.knowledge.told import Given, Told
 from gaitwright.learning.courses import course
-from gaitwright.learning.decision_point import DecisionPoint
+from gaitwright.learning.decision_point import DecisionPoint, decision_point
 from gaitwright.learning.kinematic import Driver, moments_of
 from gaitwright.learning.skill_pupil import Choice, SkillPupil, told_at
 from gaitwright.learning.teacher import Shown, Teacher, teacher_for
@@ -26,7 +26,6 @@ from gaitwright.model.robot import Robot
 from gaitwright.signals import Route, Sensed, SkillCall
 from gaitwright.skills.measured import measured
 from gaitwright.skills.rule_chooser import carry_out
-from gaitwright.skills.situation import named
 
 BEFORE_DRIVING = 10
 """Moments that the teacher drives at the very beginning."""
@@ -94,7 +93,7 @@ def lessons_on(
 ) -> Iterator[Told]:
     """What a trip teaches, moment by moment; each is to be heard before the next is asked for."""
     for moment in moments:
-        shown, choice = teacher.ideal(moment.raw), pupil.choose(moment)
+        shown, choice = teacher.ideal(moment.facts), pupil.choose(moment)
         given = how_given(pupil, choice, shown)
         if asks_always or given != "confirmed" or not choice.sure:
             yield told_at(moment, shown, scene, given)
@@ -123,11 +122,11 @@ def pupil_drives(pupil: SkillPupil, robot: Robot, teacher: Teacher) -> Driver:
     teachers = teacher_drives(robot, teacher)
 
     def drive(route: Route, sensed: Sensed, now: SkillCall | None) -> SkillCall:
-        raw = measured(robot, route, sensed, now)
-        choice = pupil.choose(DecisionPoint("", named(raw, now), raw, {}))
+        choice = pupil.choose(decision_point("", measured(robot, route, sensed, now), now))
         if choice.action is None or drives_not_yet(pupil):
             return teachers(route, sensed, now)
-        return replace(carry_out(robot, choice.action, route, sensed), memory=remembered({}))
+        memory = applied(choice.action, now.memory if now else {})
+        return replace(carry_out(robot, choice.action, route, sensed), memory=memory)
 
     return drive
 

@@ -9,21 +9,27 @@ from copy import deepcopy
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from jaxtyping import Bool, Float
 
 from gaitwright.errors import WrongUse
 from gaitwright.induction.cases import NOBODY
-from gaitwright.induction.pupil import STEPPED_IN, Heard, Lesson, Pupil
-from gaitwright.knowledge.differences import Stage, differences
-from gaitwright.knowledge.expressed import Lessons, expressed, rule_names
-from gaitwright.knowledge.memory import Action, Fact
+from gaitwright.induction.columns import Vocabulary
+from gaitwright.induction.decision_list import Bound
+from gaitwright.induction.going_on import only_goes_on, until_of
+from gaitwright.induction.pupil import LEAST, STEPPED_IN, Heard, Lesson, Pupil
+from gaitwright.knowledge.differences import Stage, about, allowed, differences
+from gaitwright.knowledge.expressed import Lessons, Wording, expressed, rule_names
+from gaitwright.knowledge.memory import Action, Fact, notes_in, read_notes
 from gaitwright.knowledge.rules import Event, Instance, Rulebook
 from gaitwright.knowledge.told import Given, Told
 from gaitwright.learning.decision_point import DecisionPoint
 from gaitwright.learning.teacher import Shown
 from gaitwright.skills.situation import situation_of
-from gaitwright.skills.vocabulary import VOCABULARY
-from gaitwright.skills.wording import WORDING
+from gaitwright.skills.vocabulary import IN_USE, VOCABULARY, check_note, vocabulary_with
+from gaitwright.skills.wording import wording_with
 
+UNTIL_ASKS = tuple(k for k, column in enumerate(VOCABULARY.columns) if column.form in ("is", "size"))
+"""The columns that may say until when an action goes on: measured numbers and their sizes."""
 WEIGHT: dict[Given, float] = dict.fromkeys(("corrected", "by itself", "by analogy"), STEPPED_IN)
 """How much a lesson counts by how it came (1). An analogy is told only where a person confirms it: she means
 it too."""
@@ -59,15 +65,39 @@ class SkillPupil:
     scenes: dict[str, int] = field(default_factory=dict)
     instances: list[Instance] = field(default_factory=list)
     """What counts, in the situation as people speak of it: made once, since a book has many."""
+    notes: list[str] = field(default_factory=list)
+    """The notes in working memory that an action makes, in the order in which they came."""
+    ends: dict[int, Bound] = field(default_factory=dict)
+    """By the place of a kind of action: while which number lies where it goes on, once it was begun."""
+    said: Bool[np.ndarray, " told"] = field(default_factory=lambda: np.zeros(0, np.bool_))
+    """Which of the lessons an end says."""
 
     def __post_init__(self) -> None:
         self.pupil = Pupil(VOCABULARY, self.seed)
 
     def copied(self) -> "SkillPupil":
         """Another one who knows the same: to try out what a lesson would do."""
-        other = SkillPupil(self.seed, [*self.kinds], [*self.told], {**self.scenes}, [*self.instances])
-        other.pupil = deepcopy(self.pupil, {id(VOCABULARY): VOCABULARY})
+        lists = (
+            [*self.kinds],
+            [*self.told],
+            {**self.scenes},
+            [*self.instances],
+            [*self.notes],
+            {**self.ends},
+            self.said,
+        )
+        other = SkillPupil(self.seed, *lists)
+        other.pupil = deepcopy(self.pupil, {id(self.vocabulary): self.vocabulary})
         return other
+
+    @property
+    def vocabulary(self) -> Vocabulary:
+        """What she may go by: what is measured, and the notes."""
+        return self.pupil.vocabulary
+
+    @property
+    def wording(self) -> Wording:
+        return wording_with(tuple(self.notes))
 
     @property
     def actions(self) -> list[Action]:
@@ -90,16 +120,32 @@ class SkillPupil:
 
     def choose_all(self, moments: Sequence[DecisionPoint]) -> list[Choice]:
         """What the rules do at many moments."""
-        return self.choose_at([facts_of(moment) for moment in moments])
+        return self.choose_at([moment.facts for moment in moments])
 
     def choose_at(self, facts: Sequence[Mapping[str, Fact]]) -> list[Choice]:
         """What the rules do where these facts hold, one set of them after the other."""
         if not self.told or not facts:
             return [Choice(None)] * len(facts)
-        rows = np.array([VOCABULARY.row(one) for one in facts])
+        rows = np.array([self.row(one) for one in facts])
         places, _, sure = self.pupil.decide_all(rows.T)
+        for k, one in enumerate(facts if self.ends else ()):
+            kept = self.goes_on(one, rows[k])
+            if kept is not None:
+                places[k], sure[k] = kept, True
         done = {a: self.as_fast_as_shown(self.kinds[a]) for a in set(places.tolist())}
         return [Choice(done[a], s) for a, s in zip(places.tolist(), sure.tolist(), strict=True)]
+
+    def row(self, facts: Mapping[str, Fact]) -> Float[np.ndarray, " columns"]:
+        """What every column says where these facts hold; what is not in memory is not noted."""
+        return self.vocabulary.row({**facts, **read_notes(self.notes, facts)})
+
+    def goes_on(self, facts: Mapping[str, Fact], row: Float[np.ndarray, " columns"]) -> int | None:
+        """The place of the action in use, where it goes on, and there is somewhere to go."""
+        for a, bound in self.ends.items():
+            in_use = facts.get(IN_USE) == self.kinds[a].skill and facts.get("arrived", 0.0) == 0.0
+            if in_use and bound.low <= row[bound.column] < bound.high:
+                return a
+        return None
 
     # --- learning ----------------------------------------------------------------------------------
     def hear(self, told: Told) -> Taken:
@@ -112,12 +158,15 @@ class SkillPupil:
         heard = self.pupil.hear(self.lesson_of(told))
         before = [one.rule for one in self.told]
         self.told.append(told)
-        self.instances.append(instance_of(told))
+        self.instances.append(self.instance_of(told))
+        self.said = np.append(self.said, False)
+        ended = self.learn_ends(told.id)
         if heard.before == heard.after:
-            return Taken(heard, ())
+            return Taken(heard, ended)
         names = rule_names(heard.before, fire, right, before)
         stage = Stage(heard.before, np.append(fire, heard.verdict.rule), names)
-        return Taken(heard, differences(stage, self.stage(), told.id, VOCABULARY, WORDING))
+        moved = differences(stage, self.stage(), told.id, self.vocabulary, self.wording)
+        return Taken(heard, (*moved, *ended))
 
     def forget(self, name: str) -> tuple[Event, ...]:
         """Takes back what was told under a name; what that moved. Raises `WrongUse` where nothing was."""
@@ -128,19 +177,73 @@ class SkillPupil:
         k, before = names.index(name), self.stage()
         self.pupil.forget(k)
         del self.told[k], self.instances[k]
+        self.said = np.delete(self.said, k)
         before = replace(before, fire=np.delete(before.fire, k))
-        return differences(before, self.stage(), name, VOCABULARY, WORDING)
+        moved = differences(before, self.stage(), name, self.vocabulary, self.wording)
+        return (*moved, *self.learn_ends(name))
+
+    def learn_ends(self, lesson: str) -> tuple[Event, ...]:
+        """Until when each action goes on, anew, the rarest first; what a lesson moved.
+
+        What an end says the list need not say: such a lesson counts little for it.
+        """
+        cases, scene, before = self.pupil.cases, self.pupil.scene, self.ends
+        using = np.array([str(told.facts.get(IN_USE, "")) for told in self.told])
+        under_way = cases.x[self.vocabulary.places["arrived"]] == 0.0
+        in_use = [(using == kind.skill) & under_way for kind in self.kinds]
+        rights, said = np.bincount(cases.action, minlength=len(self.kinds)), np.zeros(cases.n, np.bool_)
+        self.ends = {}
+        for a in np.argsort(rights, kind="stable").tolist():
+            bound = until_of(a, cases, scene, in_use[a], said, UNTIL_ASKS, self.vocabulary.known)
+            if bound is not None:
+                self.ends[a] = bound
+                said |= only_goes_on(bound, a, cases, in_use[a])
+        self.weigh(said)
+        moved = {a: (before.get(a), self.ends.get(a)) for a in sorted({*before, *self.ends})}
+        return tuple(self.end_moved(lesson, a, *ends) for a, ends in moved.items() if ends[0] != ends[1])
+
+    def weigh(self, said: Bool[np.ndarray, " cases"]) -> None:
+        """Lets what an end says count little for the list, and what none says any more as it was told."""
+        weight = self.pupil.cases.weight.copy()
+        for k in np.flatnonzero(self.said & ~said).tolist():
+            weight[k] = WEIGHT.get(self.told[k].given, 1.0)
+        weight[said] = LEAST
+        self.said = said
+        self.pupil.cases = self.pupil.cases._replace(weight=weight)
+
+    def end_moved(self, lesson: str, action: int, old: Bound | None, new: Bound | None) -> Event:
+        """That an action goes on until something else."""
+        name = self.name_of(self.kinds[action])
+        before, after = (self.until(bound) for bound in (old, new))
+        goes_on = f"goes on until {after}" if after else "does not go on by itself any more"
+        return Event(lesson, name, "", "rule", before, after, f"{name} now {goes_on}")
+
+    def until(self, bound: Bound | None) -> str:
+        """When what goes on within a bound ends, as a person says it."""
+        if bound is None:
+            return ""
+        outside = (bound.high, np.inf) if np.isfinite(bound.high) else (-np.inf, bound.low)
+        column = self.vocabulary.columns[bound.column]
+        return f"{about(self.wording, column)} {allowed(column, *outside)}"
 
     def note(self, told: Told) -> None:
         """Gives a new action and a new scene their places."""
         if kind_of(told.action) not in self.kinds:
             self.kinds.append(kind_of(told.action))
         self.scenes.setdefault(told.scene, len(self.scenes))
+        new = [name for name in dict.fromkeys(notes_in(told.action)) if name not in self.notes]
+        if new:
+            for name in new:
+                check_note(name)
+            self.notes += new
+            self.pupil.widen(vocabulary_with(tuple(self.notes)))
+            self.instances = [self.instance_of(one) for one in self.told]
 
     def lesson_of(self, told: Told) -> Lesson:
         """What was told, as numbers; its action and scene have their places."""
-        reason = VOCABULARY.place_of(told.about) if told.about in VOCABULARY.names else NOBODY
-        row, action = VOCABULARY.row(told.facts), self.kinds.index(kind_of(told.action))
+        names = self.vocabulary.names
+        reason = names.index(told.about) if told.about in names else NOBODY
+        row, action = self.row(told.facts), self.kinds.index(kind_of(told.action))
         return Lesson(row, action, reason, self.scenes[told.scene], WEIGHT.get(told.given, 1.0))
 
     def name_of(self, action: Action) -> str:
@@ -162,8 +265,15 @@ class SkillPupil:
 
     def rulebook(self) -> Rulebook:
         """What was learned, as rules over feature trees."""
-        pupil, taught = self.pupil, Lessons(self.instances, self.actions, [told.rule for told in self.told])
-        return expressed(pupil.lines, pupil.cases, pupil.standing, VOCABULARY, WORDING, taught)
+        pupil, names = self.pupil, [told.rule for told in self.told]
+        taught = Lessons(self.instances, self.actions, names, self.ends)
+        return expressed(pupil.lines, pupil.cases, pupil.standing, self.vocabulary, self.wording, taught)
+
+    def instance_of(self, told: Told) -> Instance:
+        """What was told, in the situation as people speak of it."""
+        facts = {**told.facts, **read_notes(self.notes, told.facts)}
+        situation = self.wording.forest.read(dict(situation_of(told.facts).items()), facts)
+        return Instance(told.id, "positive", situation, facts, told.because)
 
 
 def kind_of(action: Action) -> Action:
@@ -174,14 +284,4 @@ def kind_of(action: Action) -> Action:
 def told_at(moment: DecisionPoint, shown: Shown, scene: str, given: Given = "corrected") -> Told:
     """What a teacher shows at a moment, as it is told to a pupil."""
     reason = (shown.because, shown.about)
-    return Told(moment.id, facts_of(moment), shown.rule, shown.action, *reason, scene, given)
-
-
-def instance_of(told: Told) -> Instance:
-    """What was told, in the situation as people speak of it."""
-    return Instance(told.id, "positive", situation_of(told.facts), told.facts, told.because)
-
-
-def facts_of(moment: DecisionPoint) -> dict[str, float | str]:
-    """The numbers of a moment and what the robot has been doing."""
-    return {**moment.raw, "doing": str(moment.situation["doing"])}
+    return Told(moment.id, moment.facts, shown.rule, shown.action, *reason, scene, given)

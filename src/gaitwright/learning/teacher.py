@@ -2,14 +2,14 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Protocol, runtime_checkable
+from typing import Any, Protocol, runtime_checkable
 
 from gaitwright.knowledge.memory import Action
 from gaitwright.model.robot import Robot
 from gaitwright.skills.library import skill_names
 
-Raw = Mapping[str, float]
-"""What the teacher sees: the measured numbers of `skills.situation.measured`."""
+Raw = Mapping[str, Any]
+"""What the teacher sees: the measured numbers of `skills.measured`, and what working memory holds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +109,7 @@ POLICY: tuple[Clause, ...] = (
     Clause("stop", Action("stop"), _stop, "arrived", "the robot is where it should be"),
     Clause(
         "turn-in-place",
-        Action("turn-in-place", until="turn is straight on"),
+        Action("turn-in-place"),
         _face_the_way,
         "off the path",
         "the way is far off its nose",

@@ -1,6 +1,7 @@
 """Mission + Sensed + GroundMap → Route: which way."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from gaitwright.model.robot import Robot
@@ -46,7 +47,8 @@ class Navigator:
                 where = "on" if view.blocked(point) else "to"
                 return nowhere(mission, f"{where} ({point[0]:g}, {point[1]:g}) {reason}"), frozenset()
             path.extend(leg)
-        route = Route(tuple(path), length(here, tuple(path)), mission.speed)
+        begins, ends = directions((here, *path))
+        route = Route(tuple(path), length(here, tuple(path)), mission.speed, begins=begins, ends=ends)
         return self.seen(route, sensed, scan, frozenset())
 
     def plan(
@@ -90,6 +92,14 @@ class Navigator:
         """Whether the robot may leave a point of its path behind: near it, and free to go on."""
         away = math.dist(here, point) / self.robot.body_length
         return away < STOP_AT or (away < PASSED and bool(visible(view, here, [onwards])))
+
+
+def directions(points: Sequence[Point]) -> tuple[float, float] | tuple[None, None]:
+    """World directions in which a way begins and ends [rad]; none of a way without a point to go to."""
+    if len(points) < 2:
+        return None, None
+    (x0, y0), (x1, y1), (x2, y2), (x3, y3) = *points[:2], *points[-2:]
+    return math.atan2(y1 - y0, x1 - x0), math.atan2(y3 - y2, x3 - x2)
 
 
 def nowhere(mission: Mission, sentence: str) -> Route:

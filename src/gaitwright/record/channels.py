@@ -14,13 +14,21 @@ from gaitwright.signals import MotionTarget, MotorCommand, Route, Scan, Sensed, 
 STATE = (*(column.name for column in Sensed.layout.columns), "tau")
 """The channels that `state_hash` covers."""
 
-ROUTE = {"route_next": 2, "route_points": 1, "route_remaining": 1, "route_speed": 1, "route_arrived": 1}
-"""Next point of the path, how many are left, the way left [m], the speed wished for, and 1 at the goal;
-NaN where there is none."""
+ROUTE = {
+    "route_next": 2, "route_points": 1, "route_remaining": 1, "route_speed": 1, "route_arrived": 1,
+    "route_directions": 2,
+}  # fmt: skip
+"""Next point of the path, how many are left, the way left [m], the speed wished for, 1 at the goal, and the
+directions in which the way begins and ends [rad]; NaN where there is none."""
 SCAN = tuple(f"scan_{field.name}" for field in fields(Scan))
 """The ground ahead, a channel for each field of `Scan`; NaN where nobody looked."""
-SITUATION = (*ROUTE, *SCAN)
+MEMORY, MOST_MEMORIES = "memory", 10_000
+"""The channel that says which of its working memories a robot had after its choice, of so many at most; NaN
+where that was not told."""
+SITUATION = (*ROUTE, *SCAN, MEMORY)
 """The channels that older recordings lack, and the only ones in which a number need not be finite."""
+Held = tuple[tuple[str, str | float], ...]
+"""A working memory: its facts with their names, in the order of these."""
 
 
 def widths(legs: int) -> dict[str, int]:
@@ -38,6 +46,7 @@ def widths(legs: int) -> dict[str, int]:
         "took": 2,
         **ROUTE,
         **dict.fromkeys(SCAN, 1),
+        MEMORY: 1,
     }
 
 
@@ -64,11 +73,12 @@ class Packer:
         self.size = 8 * sum(widths(legs).values())
         self.skills: dict[str, int] = {}
         self.drivers: dict[str, int] = {}
+        self.memories: dict[Held, int] = {}
         self.plain: bool | None = None
         self.route: Route | None = None
         self.situation = b""
         self.call: SkillCall | None = None
-        self.numbers = 0, 0
+        self.numbers, self.memory = (0, 0), b""
         where = MotionTarget.layout.slices(legs)
         self.feet = slice(where["phase"].start, where["stance"].stop)
         self.place, self.command = where["position_w"], where["command"]
@@ -81,6 +91,7 @@ class Packer:
         if call is not self.call:
             skill = self.skills.setdefault(call.skill, len(self.skills))
             self.call, self.numbers = call, (skill, self.drivers.setdefault(call.driver, len(self.drivers)))
+            self.memory = ONE(self.memory_of(call))
         pieces: tuple[Any, ...] = (
             lap.sensed.row,
             lap.command.row,
@@ -89,12 +100,20 @@ class Packer:
             target[self.command],
             FIVE(*self.numbers, call.gait.period, *lap.took),
             self.situation,
+            self.memory,
         )
         if self.plain is None:
             self.plain = all(is_plain(piece) for piece in pieces)
         row = b"".join(pieces if self.plain else map(converted, pieces))
         assert len(row) == self.size, f"a row of {len(row)} bytes, not {self.size}: an array of another shape"
         return row
+
+    def memory_of(self, call: SkillCall) -> float:
+        """The number of what a robot remembers; NaN where it has remembered too much to tell."""
+        held = tuple(sorted(call.memory.items()))
+        if len(self.memories) >= MOST_MEMORIES and held not in self.memories:
+            return math.nan
+        return float(self.memories.setdefault(held, len(self.memories)))
 
 
 def situation_numbers(route: Route) -> tuple[float, ...]:
@@ -103,7 +122,8 @@ def situation_numbers(route: Route) -> tuple[float, ...]:
     speed = math.nan if route.speed is None else route.speed
     scan = [math.nan if route.ahead is None else getattr(route.ahead, field.name) for field in fields(Scan)]
     left = (float(len(route.path)), route.remaining, speed, float(route.arrived))
-    return x, y, *left, *map(float, scan)
+    ways = (math.nan if way is None else way for way in (route.begins, route.ends))
+    return x, y, *left, *ways, *map(float, scan)
 
 
 def doubles(number: int):
@@ -111,7 +131,7 @@ def doubles(number: int):
     return Struct(f"{number}d").pack
 
 
-FIVE = doubles(5)
+ONE, FIVE = doubles(1), doubles(5)
 SITUATION_OF = doubles(sum(ROUTE.values()) + len(SCAN))
 
 

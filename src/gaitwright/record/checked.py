@@ -1,6 +1,6 @@
 """What the file of a recording holds, held against what a recording can be: nothing is believed before."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import fields
 from typing import Annotated, Any
 
@@ -11,7 +11,7 @@ from msgspec import Meta
 from gaitwright.errors import printable
 from gaitwright.model.robot import Robot, robot_of
 from gaitwright.perception.fault_words import Fault
-from gaitwright.record.channels import SITUATION, always, columns_of
+from gaitwright.record.channels import MEMORY, MOST_MEMORIES, SITUATION, Held, always, columns_of
 
 MOST_LEGS = 16
 LARGEST = 1e6
@@ -25,6 +25,7 @@ MOST_POINTS = 100_000
 
 Name = Annotated[str, Meta(min_length=1, max_length=200)]
 Names = Annotated[tuple[Name, ...], Meta(max_length=1000)]
+Facts = Annotated[dict[Name, Annotated[str, Meta(max_length=1000)] | float], Meta(max_length=1000)]
 Lists = Annotated[list[Any], Meta(max_length=MOST_LEGS)]
 
 
@@ -60,6 +61,7 @@ class Header(msgspec.Struct, frozen=True):
     stopped_because: Annotated[str, Meta(max_length=10_000)]
     robot: dict[str, str | float | Lists]
     faults: Annotated[tuple[Noticed, ...], Meta(max_length=100)] = ()
+    memories: Annotated[tuple[Facts, ...], Meta(max_length=MOST_MEMORIES)] = ()
     trip: Annotated[int, Meta(ge=1)] | None = None
 
 
@@ -72,6 +74,7 @@ def header_of(content: bytes) -> tuple[Robot, dict[str, Any]]:
         "stopped_because": printable(entry.stopped_because),
         "skills": tuple(map(printable, entry.skills)),
         "drivers": tuple(map(printable, entry.drivers)),
+        "memories": tuple(map(held, entry.memories)),
         "faults": tuple(noticed.fault for noticed in entry.faults),
     }
     robot = robot_of(dict(entry.robot))
@@ -79,6 +82,16 @@ def header_of(content: bytes) -> tuple[Robot, dict[str, Any]]:
     if fault:
         raise ValueError(f"its robot has {fault}")
     return robot, own | shown
+
+
+def held(facts: Facts) -> Held:
+    """A working memory, in letters that do nothing to a terminal."""
+    shown = ((name, printable(fact) if isinstance(fact, str) else fact) for name, fact in facts.items())
+    return tuple(sorted((printable(name), fact) for name, fact in shown))
+
+
+NAMED = {"skill": "skills", "driver": "drivers", MEMORY: "memories"}
+"""The channels whose numbers stand for something in the header, and its field."""
 
 
 def faults_of(robot: Robot) -> Iterator[str]:
@@ -105,15 +118,17 @@ def sound_rows(rows: np.ndarray, legs: int) -> np.ndarray:
         return np.all(np.abs(rows[:, : always(legs)]) < BLOWN_UP, axis=1)
 
 
-def check_rows(rows: np.ndarray, legs: int, skills: int, drivers: int) -> None:
-    """Raises `ValueError` for a row that names a skill or driver that there is not, or counts none."""
+def check_rows(rows: np.ndarray, legs: int, named: Mapping[str, int]) -> None:
+    """Raises `ValueError` for a row that names a skill, driver or memory that there is not; `named` says how
+    many there are. Only what is remembered may not be told."""
     places = columns_of(legs)
 
     def column(name: str) -> np.ndarray:
         return rows[:, places[name]][:, 0]
 
-    for name, known in (("skill", skills), ("driver", drivers)):
+    for name, known in named.items():
         numbers = column(name)
+        numbers = numbers[~np.isnan(numbers)] if name in SITUATION else numbers
         wrong = numbers[~((numbers >= 0) & (numbers < known) & (numbers == np.floor(numbers)))]
         if len(wrong):
             raise ValueError(f"it has {known} names of {name}s, and a tick with number {wrong[0]:g}")

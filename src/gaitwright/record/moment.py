@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from gaitwright.record.channels import SCAN
+from gaitwright.record.channels import MEMORY, SCAN
 from gaitwright.record.recording import Recording
 from gaitwright.signals import GRIP, Gait, Route, Scan, Sensed, SkillCall
 
@@ -45,12 +45,15 @@ def route_at(r: Recording, tick: int) -> Route | None:
     if np.isnan(points):
         return None
     x, y = r.at("route_next", tick).tolist()
+    begins, ends = (None if math.isnan(way) else way for way in r.at("route_directions", tick).tolist())
     return Route(
         path=((x, y),) * int(points),
         remaining=number(r, "route_remaining", tick),
         speed=None if np.isnan(speed) else speed,
         arrived=bool(number(r, "route_arrived", tick)),
         ahead=scan_at(r, tick),
+        begins=begins,
+        ends=ends,
     )
 
 
@@ -59,7 +62,9 @@ def call_at(r: Recording, tick: int) -> SkillCall:
     skill, driver = r.skills[int(number(r, "skill", tick))], r.drivers[int(number(r, "driver", tick))]
     forward, left, turn = r.at("command", tick).tolist()
     gait = Gait(skill, number(r, "period", tick), float("nan"), ())
-    return SkillCall(skill, gait, (forward, left), turn, driver, "")
+    held = number(r, MEMORY, tick)
+    memory = {} if math.isnan(held) else dict(r.memories[int(held)])
+    return SkillCall(skill, gait, (forward, left), turn, driver, "", memory=memory)
 
 
 def number(r: Recording, channel: str, tick: int) -> float:

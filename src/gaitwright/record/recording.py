@@ -14,8 +14,8 @@ from gaitwright.model.robot import Robot, lists_of
 from gaitwright.numerics.geometry import GRAVITY
 from gaitwright.perception.fault_words import Fault
 from gaitwright.record import metrics as figures
-from gaitwright.record.channels import SITUATION, STATE, Packer, columns_of, widths
-from gaitwright.record.checked import check_rows, header_of, sound_rows
+from gaitwright.record.channels import SITUATION, STATE, Held, Packer, columns_of, widths
+from gaitwright.record.checked import NAMED, check_rows, header_of, sound_rows
 from gaitwright.record.metrics import Report
 from gaitwright.record.npz import opened, read_blocks, read_header, write_npz
 from gaitwright.record.rows import BLOCK, Lazy, Table, Writer, filled, first_rows, parts
@@ -46,6 +46,8 @@ class Recording:
     stopped_because: str
     faults: tuple[Fault, ...] = ()
     """What was noticed to be broken."""
+    memories: tuple[Held, ...] = ()
+    """Working memories that the numbers in channel `memory` stand for."""
     trip: int | None = None
     """Ticks of the trip, where the robot was let down after it; `None`: all of them."""
 
@@ -160,6 +162,7 @@ class Recording:
         """All but the arrays, as plain JSON values."""
         own = {name: getattr(self, name) for name in HEADER}
         own["faults"] = [asdict(fault) for fault in self.faults]
+        own["memories"] = [dict(held) for held in self.memories]
         return own | {"robot": lists_of(self.robot)}
 
 
@@ -207,6 +210,7 @@ class Recorder:
             fell=last is not None and last.fell,
             stopped_because=(last.stopped_because if last else None) or self.no_room or INTERRUPTED,
             faults=last.faults if last else (),
+            memories=tuple(self.packer.memories),
             trip=self.trip if self.trip != self.laps else None,
         )
 
@@ -218,9 +222,10 @@ def load(path: str | Path) -> Recording:
     with opened(Path(path)) as archive:
         robot, own = header_of(read_header(archive))
         channels = widths(robot.n)
+        known = {name: len(own[names]) for name, names in NAMED.items()}
         writer = Writer(sum(channels.values()))
         for block in read_blocks(archive, channels, optional=SITUATION):
-            check_rows(block, robot.n, len(own["skills"]), len(own["drivers"]))
+            check_rows(block, robot.n, known)
             sound = sound or bool(sound_rows(block, robot.n).any())
             writer.extend(block)
         if not sound:

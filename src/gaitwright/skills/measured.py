@@ -31,11 +31,12 @@ def measured(robot: Robot, route: Route, sensed: Sensed, call: SkillCall | None 
     """
     scan = route.ahead or felt(sensed)
     h, unit, scale = robot.height, robot.body_length, speed_scale(robot)
-    down = float(np.mean(sensed.load > LOADED * robot.total_mass * GRAVITY))
+    down = sensed.load > LOADED * robot.total_mass * GRAVITY
     going = bool(route.path) and not route.arrived
     off, way = (heading_error(route, sensed), bearing(route, sensed)) if going else (0.0, scan.course)
     numbers = {
-        "feet down": down,
+        "feet down": float(np.mean(down)),
+        **{name: float(np.mean(down[where])) for name, where in sides(robot).items()},
         "slope": math.degrees(scan.slope),
         "roughness": scan.roughness / h,
         "step up": scan.step_up / h,
@@ -51,12 +52,20 @@ def measured(robot: Robot, route: Route, sensed: Sensed, call: SkillCall | None 
         "obstacle": min(OUT_OF_SIGHT, scan.obstacle / unit),
         "effort": torque_utilisation(robot, sensed),
         "direction": math.degrees(float(wrap(way))),
+        "direction at the start": math.degrees(float(wrap(way if route.begins is None else route.begins))),
+        "direction at the end": math.degrees(float(wrap(way if route.ends is None else route.ends))),
         "familiar": float(scan.familiar),
         "turning": float(doing_of(call) == "turning"),
         "grip": scan.friction,
         "speed": math.hypot(float(sensed.velocity_w[0]), float(sensed.velocity_w[1])) / scale,
     }
     return numbers
+
+
+def sides(robot: Robot) -> dict[str, np.ndarray]:
+    """Which legs are in front, behind, on the left and on the right."""
+    x, y = robot.hip[:, 0], robot.hip[:, 1]
+    return {"front feet": x > 0.0, "hind feet": x < 0.0, "left feet": y > 0.0, "right feet": y < 0.0}
 
 
 def felt(sensed: Sensed) -> Scan:

@@ -10,6 +10,7 @@ from gaitwright.knowledge.compiled import Compiled, compile_book, decide
 from gaitwright.knowledge.forest import Forest, Situation
 from gaitwright.knowledge.memory import Action, Fact, applied, remembered
 from gaitwright.knowledge.rules import Rulebook, status
+from gaitwright.knowledge.trees import ROOT
 from gaitwright.model.robot import Robot
 from gaitwright.signals import Route, Sensed, SkillCall
 from gaitwright.skills.book_trees import in_trees_of, up_to_date
@@ -18,13 +19,13 @@ from gaitwright.skills.library import fastest, find_skill, gait_of, skill_names,
 from gaitwright.skills.measured import measured
 from gaitwright.skills.path_following import approach_speed, heading_error, turn_rate
 from gaitwright.skills.situation import named
+from gaitwright.skills.vocabulary import RULE_IN_USE
 from gaitwright.stages import Map, Now
 
-DOING = "rule in use"
-"""The fact of working memory that names the rule that fired last."""
 CAREFUL, NO_GOAL = "goal", ("no goal", "arrived")
 """The tree, and the values of it, at which a rule that was never seen right there moves nothing: where nobody
 knows, a robot without a goal stays where it is."""
+NOTHING = remembered({})
 LACKING, UNSEEN = "wants a skill it does not have", "was never seen right without a goal"
 
 
@@ -56,21 +57,21 @@ class RuleChooser:
         """The skill for what lies ahead; `now` is the one in use."""
         raw = measured(self.robot, route, sensed, now)
         memory = remembered(now.memory if now is not None else {})
-        ruling = self.ruling(self.situation(raw, now), memory)
+        ruling = self.ruling(self.situation(raw, now, memory), memory)
         action = self.actions.get(ruling.rule or "")
         if action is None or action.skill not in skill_names(self.robot.n):
             return self.fallen_back(route, sensed, now, ruling)
         if not self.is_safe(ruling, action):
             return self.fallen_back(route, sensed, now, ruling, UNSEEN)
-        kept = {**applied(action, memory), DOING: str(ruling.rule)}
+        kept = {**applied(action, memory), RULE_IN_USE: str(ruling.rule)}
         call = carry_out(self.robot, action, route, sensed)
         return replace(call, because=self.because(ruling), memory=kept)
 
     def ruling(self, situation: Situation, memory: Mapping[str, Fact]) -> Ruling:
         """The rule for a situation: the one in use until its condition holds, else the first that fires."""
-        doing = str(memory.get(DOING, ""))
+        doing = str(memory.get(RULE_IN_USE, ""))
         action = self.actions.get(doing)
-        if goes_on(action, situation):
+        if goes_on(self.rulebook.forest, action, situation):
             return Ruling(doing, True, True, situation)
         rule, sure = decide(self.compiled, dict(situation.items()))  # pyright: ignore[reportArgumentType]
         return Ruling(rule, sure and rule in self.firm, False, situation)
@@ -85,9 +86,11 @@ class RuleChooser:
         here = ruling.situation[CAREFUL] if CAREFUL in forest.names else None
         return here not in NO_GOAL or (seen is not None and forest[CAREFUL].is_below(str(here), seen))
 
-    def situation(self, raw: Mapping[str, float], now: SkillCall | None) -> Situation:
+    def situation(
+        self, raw: Mapping[str, float], now: SkillCall | None, memory: Mapping[str, Fact] = NOTHING
+    ) -> Situation:
         """The situation in the rulebook's own trees: those of today and those it grew since."""
-        return in_trees_of(self.rulebook, named(raw, now), raw)
+        return in_trees_of(self.rulebook, named(raw, now), {**memory, **raw})
 
     def because(self, ruling: Ruling) -> str:
         """Why, as a sentence: the rule and how sure it is."""
@@ -102,7 +105,7 @@ class RuleChooser:
         """What the plain rules say, and why they were asked."""
         call = DefaultChooser(self.robot).choose(route, sensed, now)
         asked = "no rule fires" if ruling.rule is None else f"rule {ruling.rule} {because}"
-        kept = {name: fact for name, fact in (now.memory if now else {}).items() if name != DOING}
+        kept = {name: fact for name, fact in (now.memory if now else {}).items() if name != RULE_IN_USE}
         return replace(call, because=f"{asked}; plainly: {call.because}", memory=kept)
 
     @cached_property
@@ -139,31 +142,27 @@ def room(robot: Robot, route: Route) -> float:
     return approach_speed(robot, replace(route, speed=math.inf))
 
 
-def goes_on(action: Action | None, situation: Situation) -> bool:
+def goes_on(forest: Forest, action: Action | None, situation: Situation) -> bool:
     """Whether an action that was begun goes on: there is somewhere to go, and its condition does not hold."""
-    under_way = situation["goal"] not in NO_GOAL
-    return action is not None and bool(action.until) and under_way and not holds(action.until, situation)
+    if action is None or not action.until or situation["goal"] in NO_GOAL:
+        return False
+    tree, mark = condition(action.until)
+    here = situation[tree]
+    return here is not None and not forest[tree].is_below(here, mark)
 
 
-def holds(until: str, situation: Situation) -> bool:
-    """Whether a condition "TREE is VALUE or VALUE" holds."""
-    tree, values = condition(until)
-    return situation[tree] in values
-
-
-def condition(until: str) -> tuple[str, tuple[str, ...]]:
-    """Tree and values of "TREE is VALUE or VALUE". Raises `WrongUse` for any other text."""
-    tree, is_, values = until.partition(" is ")
+def condition(until: str) -> tuple[str, str]:
+    """Tree and mark of "TREE is VALUE", or "TREE is VALUE or VALUE", as a mark may name several. Raises
+    `WrongUse` for any other text."""
+    tree, is_, mark = until.partition(" is ")
     if not is_:
         raise WrongUse(f"{until!r} is no condition; write e.g. 'turn is straight on'")
-    return tree, tuple(values.split(" or "))
+    return tree, mark
 
 
 def check_until(forest: Forest, action: Action) -> None:
     """`WrongUse` where an action goes on until something that can never be."""
     if action.until:
-        tree, values = condition(action.until)
-        for value in values:
-            forest[tree].at(value)
-            if not forest[tree].is_leaf(value):
-                raise WrongUse(f"{action.skill}: until {action.until!r} must name leaves of {tree}")
+        tree, mark = condition(action.until)
+        if forest[tree].leaf_set(mark) == forest[tree].leaf_set(ROOT):
+            raise WrongUse(f"{action.skill}: until {action.until!r} is true at once")

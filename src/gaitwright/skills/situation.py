@@ -27,6 +27,15 @@ SUPPORT = tree(
     },
     about="on the ground are",
 )
+LEGS = tree(
+    "leg setting",
+    {
+        "on all sides": ("all feet", "feet across"),
+        "on one side": ("front feet", "hind feet", "left feet", "right feet"),
+        "no feet": (),
+    },
+    about="the feet that are down are",
+)
 ROAD = tree(
     "road",
     {
@@ -77,9 +86,10 @@ OBSTACLE = interval_tree(
 EFFORT = interval_tree(
     "effort", "", (0.25, 0.6), {"lightly": (), "hard": ("normally", "heavily")}, about="the motors work"
 )
-STREET = tree(
-    "street", {"east-west": ("east", "west"), "north-south": ("north", "south")}, about="the way leads"
-)
+STREETS = {"east-west": ("east", "west"), "north-south": ("north", "south")}
+STREET = tree("street", STREETS, about="the way leads")
+INITIAL = tree("initial location", STREETS, about="the way began")
+FINAL = tree("final location", STREETS, about="the way ends")
 PATH = tree("path", ("unknown", "travelled before"), about="the path is")
 DOING = tree(
     "doing",
@@ -87,11 +97,21 @@ DOING = tree(
     about="it has been",
 )
 
-FOREST = Forest((SUPPORT, ROAD, DISTANCE, GOAL, TURN, PACE, STABILITY, OBSTACLE, EFFORT, STREET, PATH, DOING))
-"""The situation space: twelve trees, as in the thesis's experimental system."""
+FOREST = Forest(
+    (
+        *(SUPPORT, LEGS, ROAD, DISTANCE, GOAL, TURN, PACE, STABILITY, OBSTACLE, EFFORT),
+        *(STREET, INITIAL, FINAL, PATH, DOING),
+    )
+)
+"""The situation space: what the trees of the thesis's experimental system say, and what a robot of today can
+measure beside it. Its four trees of a leg's place in the cycle are one here, for any number of legs."""
 
 READ_FROM = {
     "feet down": "support",
+    "front feet": "leg setting",
+    "hind feet": "leg setting",
+    "left feet": "leg setting",
+    "right feet": "leg setting",
     "slope": "road",
     "roughness": "road",
     "step up": "road",
@@ -107,6 +127,8 @@ READ_FROM = {
     "obstacle": "obstacle",
     "effort": "effort",
     "direction": "street",
+    "direction at the start": "initial location",
+    "direction at the end": "final location",
     "familiar": "path",
     "speed": "doing",
     "turning": "doing",
@@ -152,6 +174,17 @@ def support_of(down: float) -> str:
         (0.01, "few down"),
     )
     return next((name for least, name in bounds if down >= least), "in flight")
+
+
+def setting_of(raw: Mapping[str, float]) -> str:
+    """On which side the feet are that carry load, by the shares of those in front, behind, left and right."""
+    shares = {name: raw[name] for name in ("front feet", "hind feet", "left feet", "right feet")}
+    if min(shares.values()) == 1.0:
+        return "all feet"
+    if max(shares.values()) == 0.0:
+        return "no feet"
+    opposite = zip(shares, ("hind feet", "front feet", "right feet", "left feet"), strict=True)
+    return next((side for side, other in opposite if shares[other] == 0.0), "feet across")
 
 
 def road_of(raw: Mapping[str, float]) -> str:
@@ -207,10 +240,13 @@ def doing_of(call: SkillCall | None) -> str:
 
 NAMED_BY: Mapping[str, Callable[[Mapping[str, float], SkillCall | None], str]] = {
     "support": lambda raw, call: support_of(raw["feet down"]),
+    "leg setting": lambda raw, call: setting_of(raw),
     "road": lambda raw, call: road_of(raw),
     "goal": lambda raw, call: goal_of(raw),
     "turn": lambda raw, call: turn_of(raw["off the path"]),
     "street": lambda raw, call: street_of(raw["direction"]),
+    "initial location": lambda raw, call: street_of(raw["direction at the start"]),
+    "final location": lambda raw, call: street_of(raw["direction at the end"]),
     "path": lambda raw, call: "travelled before" if raw["familiar"] else "unknown",
     "doing": lambda raw, call: doing_of(call),
 }

@@ -1,10 +1,15 @@
 """The facts that rules on skills may go by, and the columns that a pupil makes of them."""
 
+from functools import lru_cache
+
+from gaitwright.errors import WrongUse
 from gaitwright.induction.columns import SPEED, WAY, Names, Quantity, Vocabulary
+from gaitwright.knowledge.memory import NOTED
 from gaitwright.skills.situation import (
     DISTANCE,
     DOING,
     EFFORT,
+    FOREST,
     GAP,
     GENTLE,
     OBSTACLE,
@@ -18,6 +23,10 @@ from gaitwright.skills.situation import (
 
 FACTS = (
     Quantity("feet down", "share of the feet", said="the share of feet on the ground"),
+    *(
+        Quantity(f"{side} feet", "share of the feet", said=f"the share of {side} feet on the ground")
+        for side in ("front", "hind", "left", "right")
+    ),
     Quantity("slope", "°", signed=True, known=(-STEEP, -GENTLE, GENTLE, STEEP), said="the slope ahead"),
     Quantity("roughness", "body heights", "height", known=(SMOOTH,), said="the roughness of the road"),
     Quantity("step up", "body heights", "height", known=(UNEVEN, STEP), said="the highest step up"),
@@ -39,6 +48,8 @@ FACTS = (
     Quantity("obstacle", "body lengths", WAY, known=OBSTACLE.bounds, said="the way to an obstacle"),
     Quantity("effort", "share of the torque", known=EFFORT.bounds, said="the effort of the motors"),
     Quantity("direction", "°", signed=True, said="the direction of the way"),
+    Quantity("direction at the start", "°", said="the direction in which the way began"),
+    Quantity("direction at the end", "°", said="the direction in which the way ends"),
     Quantity("grip", known=(0.5,), said="the grip of the ground"),
     Quantity("familiar", said="having been here before (1: yes)"),
     Quantity("turning", said="turning already (1: yes)"),
@@ -46,6 +57,10 @@ FACTS = (
     Names("doing", DOING.leaves, {"slow": DOING.leaves_below("slow"), "quick": DOING.leaves_below("quick")}),
 )
 """The measured numbers (`situation.measured`) and what the robot has been doing."""
+
+RULE_IN_USE, IN_USE = "rule in use", "in use"
+"""The facts of working memory that name the rule that fired last and the skill that is in use."""
+KEPT, LONGEST_NOTE = (RULE_IN_USE, IN_USE), 60
 
 FLAGS = {
     "arrived": {1.0: "it had arrived", 0.0: "it were under way", -1.0: "there were nowhere to go"},
@@ -56,5 +71,18 @@ FLAGS = {
 
 VOCABULARY = Vocabulary(FACTS)
 
-COLUMN_PLACES = {column.name: k for k, column in enumerate(VOCABULARY.columns)}
-"""The place of each column by its name: names are what files and people know."""
+
+@lru_cache(maxsize=64)
+def vocabulary_with(notes: tuple[str, ...]) -> Vocabulary:
+    """The vocabulary of someone who makes notes in working memory: what is measured, and whether each note
+    is made."""
+    return Vocabulary((*FACTS, *(Names(name, (NOTED,)) for name in notes))) if notes else VOCABULARY
+
+
+def check_note(name: str) -> None:
+    """`WrongUse` where a note cannot be called so."""
+    taken = {*VOCABULARY.names, *VOCABULARY.places, *FOREST.names, *KEPT}
+    if not name.strip() or not name.isprintable() or len(name) > LONGEST_NOTE or set(" ") == set(name):
+        raise WrongUse(f"a note has a name of up to {LONGEST_NOTE} letters that can be read, not {name!r}")
+    if name in taken or " is " in name or " and " in name or set(name) & set("<>=,"):
+        raise WrongUse(f"{name!r} is no name for a note: it is measured, or reads like a condition")

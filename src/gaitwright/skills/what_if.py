@@ -12,9 +12,9 @@ from itertools import combinations, product
 
 from gaitwright.induction.columns import Column, Names
 from gaitwright.knowledge.compiled import Compiled, compile_book, decide
-from gaitwright.knowledge.memory import Fact
+from gaitwright.knowledge.memory import NOT_NOTED, NOTED, Fact
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.skills.book_trees import situation_in
+from gaitwright.skills.book_trees import notes_of, situation_in
 from gaitwright.skills.vocabulary import FACTS, FLAGS, VOCABULARY
 from gaitwright.skills.wording import NUMBERS
 
@@ -56,6 +56,7 @@ def what_ifs(rulebook: Rulebook, facts: Facts, targets: Sequence[str]) -> list[W
     table = compile_book(rulebook)
     now = decided(rulebook, table, facts)
     tried = {fact: list(values_of(rulebook, facts, fact)) for fact in facts if fact in QUANTITIES}
+    tried |= {note: [other_way(note, facts)] for note in notes_of(rulebook)}
     found: dict[str, WhatIf] = {}
     for many in range(1, MOST_FACTS + 1):
         left, nearest = set(targets) - found.keys(), dict[str, float]()
@@ -101,6 +102,13 @@ def values_of(rulebook: Rulebook, facts: Facts, name: str) -> Iterator[Changed]:
             for bound in tree.bounds:
                 for there in crossings(column, name, facts, bound):
                     yield beside(quantity.said or name, quantity.unit, name, float(now), there)
+
+
+def other_way(note: str, facts: Facts) -> Changed:
+    """A note in working memory made that is not, or the other way round."""
+    now = facts.get(note, NOT_NOTED)
+    other = NOTED if now == NOT_NOTED else NOT_NOTED
+    return Changed(note, now, other, f"{note} were {other}")
 
 
 def crossings(column: Column, name: str, facts: Facts, bound: float) -> list[float]:

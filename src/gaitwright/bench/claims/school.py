@@ -58,7 +58,7 @@ def corrections(context: Context) -> Iterator[Figure]:
             path = stored(pupil, Path(folder) / "pupil.skills")
             for fault in found[:FAULTS]:
                 trials.append(trial(pupil, teacher, fault, pool, rng))
-                took.append(stored_in(path, told_at(fault, teacher.ideal(fault.raw), "a fault")))
+                took.append(stored_in(path, told_at(fault, teacher.ideal(fault.facts), "a fault")))
     variants, mended = sum(t.variants for t in trials), sum(t.mended for t in trials)
     earlier, broken = sum(t.earlier for t in trials), sum(t.broken for t in trials)
     note = f"{len(trials)} faults, {variants} variants"

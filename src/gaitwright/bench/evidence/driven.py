@@ -9,7 +9,6 @@ from gaitwright.induction.pupil import Pupil
 from gaitwright.knowledge.memory import Action
 from gaitwright.learning.courses import course
 from gaitwright.learning.kinematic import Driver, moments_of
-from gaitwright.learning.skill_pupil import facts_of
 from gaitwright.model.robot import Robot
 from gaitwright.signals import Route, Sensed, SkillCall
 from gaitwright.skills.chooser import DefaultChooser
@@ -61,7 +60,7 @@ def pupil_drives(robot: Robot, pupil: Pupil, skills: Sequence[str]) -> Driver:
 def trip(robot: Robot, number: int, driver: Driver) -> list[Facts]:
     """Some moments of a trip, drawn by chance, in their order."""
     moments = moments_of(course(robot, number), driver, np.random.default_rng([number, 7]))
-    seen = until_it_stands([facts_of(moment) for moment in moments])
+    seen = until_it_stands([moment.facts for moment in moments])
     rng = np.random.default_rng([number, 8])
     return [seen[k] for k in sorted(rng.choice(len(seen), min(PER_TRIP, len(seen)), replace=False).tolist())]
 

@@ -237,7 +237,7 @@ def learned(seed: int, lessons: int, number: int) -> tuple[Rulebook, list[Situat
     robot = load_robot("go2")
     teacher, pupil = teacher_for(robot), SkillPupil(seed)
     moments = held_out(robot, teacher, seed, lessons + number)
-    events = [pupil.hear(told_at(m, teacher.ideal(m.raw), m.id)).events for m in moments[:lessons]]
+    events = [pupil.hear(told_at(m, teacher.ideal(m.facts), m.id)).events for m in moments[:lessons]]
     book = replace(pupil.rulebook(), events=tuple(event for moved in events for event in moved))
     return book, [in_trees_of(book, m.situation, m.raw) for m in moments[lessons:]]
 

@@ -88,7 +88,7 @@ def stepped_in(room: LiveLessons, source: Running, teacher: ScriptedTeacher) -> 
     times = 0
     while not source.over and times < MOST:
         seen = source.here()
-        shown, choice = teacher.ideal(seen.moment.raw), room.pupil.choose(seen.moment)
+        shown, choice = teacher.ideal(seen.moment.facts), room.pupil.choose(seen.moment)
         if choice.action != shown.action:
             room.keep(room.tried(told_at(seen.moment, shown, source.name)))
             source.drive_by(room.ledger.book.rulebook)
