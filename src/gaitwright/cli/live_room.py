@@ -13,7 +13,7 @@ from gaitwright.knowledge.memory import Action, said_of
 from gaitwright.learning.live import LiveLessons, Tried
 from gaitwright.learning.live_sources import Played, Running
 from gaitwright.learning.said_action import Words, said_action
-from gaitwright.learning.skill_pupil import kind_of, told_at
+from gaitwright.learning.skill_pupil import told_at
 from gaitwright.learning.teacher import Shown
 from gaitwright.model.robot import Robot
 from gaitwright.skills.book_trees import in_trees_of
@@ -133,8 +133,9 @@ class Room:
 
     def try_out(self, action: Action, name: str, about: str) -> None:
         seen = self.source.here()
-        done = self.lessons.pupil.choose(seen.moment).action
-        given = "confirmed" if done is not None and kind_of(done) == kind_of(action) else "corrected"
+        pupil = self.lessons.pupil
+        is_right = pupil.choose(seen.moment).action == pupil.learned(action)
+        given = "confirmed" if is_right else "corrected"
         told = told_at(seen.moment, Shown(name, action, about=about), self.source.name, given)
         self.tried = self.lessons.tried(told)
         tell_tried(self.tried, seen)

@@ -54,7 +54,7 @@ def examined(pupil: SkillPupil, teacher: Teacher, moments: Sequence[DecisionPoin
 def rights(pupil: SkillPupil, teacher: Teacher, moments: Sequence[DecisionPoint]) -> np.ndarray:
     """Whether the pupil would do what the teacher would, moment by moment."""
     done = pupil.choose_all(moments)
-    wanted = [teacher.ideal(moment.facts).action for moment in moments]
+    wanted = [pupil.learned(teacher.ideal(moment.facts).action) for moment in moments]
     return np.array([choice.action == action for choice, action in zip(done, wanted, strict=True)])
 
 

@@ -141,7 +141,7 @@ class Joining:
         """A conflict for each of some lessons that the joined pupil does not follow."""
         book = self.our_name if of_ours else self.their_name
         for told, action in zip(lessons, decided(pupil, lessons), strict=True):
-            if action is not None and action != told.action:
+            if action is not None and action != pupil.learned(told.action):
                 instead = action.skill if action.skill != told.action.skill else said_of(action)
                 sentence = (
                     f"{told.id} of {book} teaches {told.rule}, and the joined book does {instead} there"
@@ -185,7 +185,7 @@ def key_of(told: Told) -> Hashable:
 def followed(pupil: SkillPupil, lessons: Sequence[Told]) -> list[Told]:
     """Those of some lessons at whose moments a pupil does what they say."""
     done = decided(pupil, lessons)
-    return [told for told, action in zip(lessons, done, strict=True) if action == told.action]
+    return [told for told, action in zip(lessons, done, strict=True) if action == pupil.learned(told.action)]
 
 
 def decided(pupil: SkillPupil, lessons: Sequence[Told]) -> list[Action | None]:

@@ -103,7 +103,7 @@ def how_given(pupil: SkillPupil, choice: Choice, shown: Shown) -> Given:
     """Why something is said at a moment."""
     if drives_not_yet(pupil):
         return "shown"
-    return "confirmed" if choice.action == shown.action else "corrected"
+    return "confirmed" if choice.action == pupil.learned(shown.action) else "corrected"
 
 
 # --- trips -----------------------------------------------------------------------------------------

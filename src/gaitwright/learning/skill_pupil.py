@@ -113,6 +113,10 @@ class SkillPupil:
         speeds = [action.fastest for action in shown if kind_of(action) == kind]
         return replace(kind, slowest=min(speeds, default=0.0), fastest=max(speeds, default=0.0))
 
+    def learned(self, action: Action) -> Action:
+        """What she does where an action was shown: as fast as its kind was."""
+        return self.as_fast_as_shown(kind_of(action))
+
     # --- deciding ----------------------------------------------------------------------------------
     def choose(self, moment: DecisionPoint) -> Choice:
         """What the rules do at a moment."""

@@ -9,6 +9,7 @@ from time import perf_counter
 import numpy as np
 
 from gaitwright.bench.context import Context
+from gaitwright.bench.evidence.remembering import remembering
 from gaitwright.bench.evidence.whole_trip_schools import schools
 from gaitwright.bench.measurement import Figure, at_least, at_most
 from gaitwright.bench.trial import robot_named
@@ -32,14 +33,16 @@ NOTE = (
     "on, hears what is right wherever she is wrong or not sure, and the teacher is never silent. Right: the "
     "same skill at the same speed range as the teacher, on scenes that no school has seen. Faults are those "
     f"of pupils after {HALF} trips; to be stored, a lesson, the rules and all that the pupil keeps in mind "
-    "are written to a book."
+    "are written to a book. Six further teachers make notes and drop them, or go on with a skill where they "
+    "would not begin it; their exams are driven by themselves."
 )
 
 
 def measure(context: Context) -> Iterator[Figure]:
-    """The exams of whole schools, and what one correction does."""
+    """The exams of whole schools, what one correction does, and teachers whose word depends on what was."""
     yield from schools(context)
     yield from corrections(context)
+    yield from remembering(context)
 
 
 def corrections(context: Context) -> Iterator[Figure]:
