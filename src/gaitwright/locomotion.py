@@ -4,11 +4,15 @@
 """
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from time import perf_counter_ns
 from typing import NamedTuple
 
+from gaitwright.control.handover import Handover, begun, softened
 from gaitwright.control.kinematic import KinematicController
+from gaitwright.control.learned.controller import LearnedController
+from gaitwright.control.learned.profile import Profile
 from gaitwright.control.numerical import Method, NumericalController
 from gaitwright.control.programmed import ProgrammedController
 from gaitwright.errors import unknown
@@ -140,6 +144,14 @@ class Brain:
             self, coordinator=coordinator, controllers={**self.controllers, "programmed": programmed}
         )
 
+    def with_profiles(self, profiles: Mapping[str, Sequence[Profile]]) -> "Brain":
+        """The same brain with a driver `learned`, who plays these profiles by the skill; where there is none,
+        the numerical controller drives. Raises `WrongUse` for profiles of a robot with other legs."""
+        numerical = self.controllers["numerical"]
+        assert isinstance(numerical, NumericalController)
+        learned = LearnedController(self.robot, profiles, numerical)
+        return replace(self, controllers={**self.controllers, "learned": learned})
+
     def begin(
         self, mission: Mission, measured: Measured, phase: float = 0.0, before: "Mind | None" = None
     ) -> "Mind":
@@ -175,6 +187,10 @@ class Memories(NamedTuple):
     controller: Controller | None = None
     """Whose memory `control` is: another one begins anew."""
     watch: WatchMemory | None = None
+    command: MotorCommand | None = None
+    """The last one: another driver goes on from it."""
+    change: Handover | None = None
+    """The change of driver that is under way."""
 
 
 class Mind(NamedTuple):
@@ -231,14 +247,25 @@ def think(brain: Brain, mind: Mind, measured: Measured) -> tuple[Lap, Mind]:
     handed = perf_counter_ns()
     controller, before = brain.controller(call.driver), mind.memories
     own = before.control if before.controller is controller else None
-    command, control = controller.command(target, sensed, own, call, ground)
+    command, control = controller.command(target, sensed, own, with_gait_in_use(call, gait), ground)
+    change = before.change
+    if before.controller is not controller:
+        change = begun(before.command, command, sensed.time)
+    if change is not None:
+        command, change = softened(command, change, sensed.time, brain.robot.tau_max)
     done = perf_counter_ns()
     lap = Lap(sensed, mind.route, call, target, command, ((done - began) / 1e3, (done - handed) / 1e3))
     if watch is not None and watched is not None:
         watched = watch.heard(watched, target, command, sensed)
         lap = lap._replace(faults=watched.faults) if watched.faults else lap
-    memories = Memories(perceived, travelled, gait, control, controller, watched)
+    memories = Memories(perceived, travelled, gait, control, controller, watched, command, change)
     return lap, Mind(mind.mission, ground, mind.route, call, memories, mind.looked_at, mind.chosen_at)
+
+
+def with_gait_in_use(call: SkillCall, memory: Memory) -> SkillCall:
+    """The call with the gait that the legs are in: the coordinator may hold an older one for a while."""
+    used = getattr(memory, "gait", None)
+    return call if used is None or used is call.gait else replace(call, gait=used)
 
 
 def plan_and_choose(brain: Brain, mind: Mind, sensed: Sensed, ground: GroundMap) -> tuple[Mind, Memory]:

@@ -10,9 +10,11 @@ from typing import Any
 import numpy as np
 
 from gaitwright.bench.witness import Change, Seen, Witness
+from gaitwright.control.learned.profile import Profile
 from gaitwright.control.numerical import Method
 from gaitwright.description.load import load_robot
 from gaitwright.ground.scene import Scene
+from gaitwright.learning.profile_lessons import taught
 from gaitwright.locomotion import Brain
 from gaitwright.model.perturb import perturbed
 from gaitwright.model.robot import Robot
@@ -36,6 +38,10 @@ class Then:
     skill: str
     at: float
     """[s]"""
+    driver: str = ""
+    """Who drives it; empty: as before."""
+    same_velocity: bool = False
+    """Whether it goes on at the velocity so far."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,9 +181,27 @@ def brain_for(trial: Trial, robot: Robot, scene: Scene) -> Brain:
     if trial.goal is None:
         chooser = fixed_skill(robot, trial.skill, trial.speed, trial.lateral, trial.turn, trial.driver)
         if trial.then is not None:
-            after = fixed_skill(robot, trial.then.skill, None, 0.0, None, trial.driver)
-            chooser = InTurn(chooser.skill_call, after.skill_call, trial.then.at)
-    return Brain.of(robot, scene, chooser, DT, trial.method)
+            chooser = InTurn(chooser.skill_call, second_call(trial, robot), trial.then.at)
+    brain = Brain.of(robot, scene, chooser, DT, trial.method)
+    if "learned" not in (trial.driver, trial.then and trial.then.driver):
+        return brain
+    skills = {trial.skill, trial.then.skill} if trial.then else {trial.skill}
+    return brain.with_profiles({skill: (profile_of(trial.robot, skill),) for skill in skills})
+
+
+def second_call(trial: Trial, robot: Robot) -> SkillCall:
+    """What follows the skill of a trial."""
+    assert trial.then is not None
+    then, driver = trial.then, trial.then.driver or trial.driver
+    if then.same_velocity:
+        return fixed_skill(robot, then.skill, trial.speed, trial.lateral, trial.turn, driver).skill_call
+    return fixed_skill(robot, then.skill, None, 0.0, None, driver).skill_call
+
+
+@lru_cache
+def profile_of(asked: str, skill: str) -> Profile:
+    """The profile of a skill as it is meant, taught once in a process."""
+    return taught(robot_named(asked), skill)
 
 
 @dataclass(frozen=True)

@@ -31,6 +31,9 @@ CREEP = 0.5
 """Dry friction counts in full from this rate on, and grows with the rate below it [rad/s]: a joint at rest
 does not chatter."""
 
+NO_LAG = (0.0, 0.0, 0.0)
+"""Nothing may be off."""
+
 q_min_of, q_max_of = LAYOUT.field("q_min"), LAYOUT.field("q_max")
 
 
@@ -47,39 +50,45 @@ class Stretch(NamedTuple):
 
 @kernel
 def steering(packed, moment):
-    """Torques `(legs, 3)` that pull the joints to where the feet should be and make up for friction [N·m].
+    """Torques `(legs, 3)` that pull the joints to where the feet should be and make up for friction [N·m]."""
+    damping, friction, rates = damping_of(packed), friction_of(packed), np.empty(3)
+    out, R = np.empty(moment.q.shape), rotation(moment.orientation)
+    for k in range(out.shape[0]):
+        pull(packed, moment, k, R, NO_LAG, NO_LAG, out[k], rates)
+        for j in range(3):
+            out[k, j] += damping[k, j] * rates[j]
+            out[k, j] += friction[k, j] * min(max(rates[j] / CREEP, -1.0), 1.0)
+    return out
+
+
+@kernel
+def pull(packed, moment, k, R, lag, lag_rate, torques, rates):
+    """Writes the torques that pull the joints of leg k to where its foot should be [N·m], and the rates that
+    are asked of them.
 
     In the air: to the foot's reference, from the base as it is. On the ground: from the foot where it is, to
-    the base as it should be.
+    the base as it should be. `lag`, `lag_rate`: how far off it may be, `R`: orientation of the base.
     """
     tau_max, weight, height = scales(packed)
-    w0 = packed[-1]
-    damping, friction, q_min, q_max = (
-        damping_of(packed), friction_of(packed), q_min_of(packed), q_max_of(packed),
-    )  # fmt: skip
-    out = np.empty(moment.q.shape)
-    R = rotation(moment.orientation)
-    for k in range(out.shape[0]):
-        lacks = stretch(packed, moment, k, R)
-        for j in range(3):
-            q, now, inertia = moment.q[k, j], moment.qd[k, j], lacks.inertia[j]
-            low, high = room(q_min[k, j], q_max[k, j])
-            down = fastest(q - low, tau_max[k, j], inertia)
-            up = fastest(high - q, tau_max[k, j], inertia)
-            angle = min(max(q + lacks.angle[j], low), high) - q
-            rate = min(max(now + lacks.rate[j], -down, -FAST), up, FAST)
-            if moment.stance[k]:
-                gains = STANCE[0] * weight * height, STANCE[1] * weight * height / w0
-            else:
-                gains = SWING[0] * w0 * w0 * inertia, SWING[1] * w0 * inertia
-            out[k, j] = (
-                gains[0] * min(max(angle, -MOST), MOST)
-                + gains[1] * (rate - now)
-                + braking(now, down, up, inertia, w0)
-                + damping[k, j] * rate
-                + friction[k, j] * min(max(rate / CREEP, -1.0), 1.0)
-            )
-    return out
+    w0, q_min, q_max = packed[-1], q_min_of(packed), q_max_of(packed)
+    lacks = stretch(packed, moment, k, R)
+    for j in range(3):
+        q, now, inertia = moment.q[k, j], moment.qd[k, j], lacks.inertia[j]
+        low, high = room(q_min[k, j], q_max[k, j])
+        down = fastest(q - low, tau_max[k, j], inertia)
+        up = fastest(high - q, tau_max[k, j], inertia)
+        angle = min(max(q + lacks.angle[j] - lag[j], low), high) - q
+        rate = min(max(now + lacks.rate[j] - lag_rate[j], -down, -FAST), up, FAST)
+        if moment.stance[k]:
+            gains = STANCE[0] * weight * height, STANCE[1] * weight * height / w0
+        else:
+            gains = SWING[0] * w0 * w0 * inertia, SWING[1] * w0 * inertia
+        rates[j] = rate
+        torques[j] = (
+            gains[0] * min(max(angle, -MOST), MOST)
+            + gains[1] * (rate - now)
+            + braking(now, down, up, inertia, w0)
+        )
 
 
 @kernel

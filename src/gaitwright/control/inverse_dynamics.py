@@ -64,6 +64,22 @@ def clipped(a, most):
 
 
 @kernel
+def base_feedback(w0, rotation_wb, omega_w, moment):
+    """Linear and angular acceleration by which the base is brought back to its reference, world axes."""
+    dp = sub(vec(moment.position_d), vec(moment.position))
+    dv = sub(vec(moment.velocity_d), vec(moment.velocity))
+    h, v = HORIZONTAL, VERTICAL
+    linear = (
+        h[1] * w0 * dv[0] + h[0] * w0 * w0 * dp[0],
+        h[1] * w0 * dv[1] + h[0] * w0 * w0 * dp[1],
+        v[1] * w0 * dv[2] + v[0] * w0 * w0 * dp[2],
+    )
+    error = scale(ATTITUDE[0] * w0 * w0, rotation_vector(between(rotation_wb, moment.rotation_d)))
+    damping = scale(ATTITUDE[1] * w0, sub(vec(moment.omega_d), omega_w))
+    return linear, add(error, damping)
+
+
+@kernel
 def base_acceleration(w0, rotation_wb, omega_w, moment):
     """Wanted linear and angular acceleration of the base, world axes, by feedback (control.md).
 
@@ -71,17 +87,8 @@ def base_acceleration(w0, rotation_wb, omega_w, moment):
     """
     if not moment.stance.any():
         return (0.0, 0.0, -GRAVITY), (0.0, 0.0, 0.0)
-    dp = sub(vec(moment.position_d), vec(moment.position))
-    dv = sub(vec(moment.velocity_d), vec(moment.velocity))
-    h, v, acceleration_d = HORIZONTAL, VERTICAL, moment.acceleration_d
-    linear = (
-        h[1] * w0 * dv[0] + h[0] * w0 * w0 * dp[0] + acceleration_d[0],
-        h[1] * w0 * dv[1] + h[0] * w0 * w0 * dp[1] + acceleration_d[1],
-        v[1] * w0 * dv[2] + v[0] * w0 * w0 * dp[2] + acceleration_d[2],
-    )
-    error = scale(ATTITUDE[0] * w0 * w0, rotation_vector(between(rotation_wb, moment.rotation_d)))
-    damping = scale(ATTITUDE[1] * w0, sub(vec(moment.omega_d), omega_w))
-    angular = add(add(error, damping), vec(moment.omega_rate_d))
+    linear, angular = base_feedback(w0, rotation_wb, omega_w, moment)
+    linear, angular = add(linear, vec(moment.acceleration_d)), add(angular, vec(moment.omega_rate_d))
     return clipped(linear, MOST_ACCELERATION), clipped(angular, MOST_SPIN * w0)
 
 
