@@ -10,6 +10,7 @@ because = "it slips"          # in words; the first number of `when` is the one 
 [[rule]]                      # goes on, once begun, on ground on which nobody would begin it
 name = "walk where it is slippery"
 skill = "walk"
+speed = [0.1, 0.25]
 when = "in use is walk and grip < 0.6"
 
 [[rule]]                      # working memory: `notes` and `drops`, read as "stairs is noted"

@@ -29,7 +29,7 @@ def taught(
     call = chooser.skill_call
     stands = call.gait.duty >= 1.0  # its phase does not go on
     cycle = np.tile(table.mean(axis=0), (BINS, 1)) if stands else mean_cycle(phases, table)
-    return Profile(call.gait, (*call.velocity, call.turn), cycle, "")
+    return Profile(call.gait, (*call.velocity, call.turn), cycle)
 
 
 def driven(robot: Robot, chooser: HeldSkill, seed: int) -> Iterator[Lap]:

@@ -173,9 +173,15 @@ def share_forces(packed, maps, profile, moment, wanted, R, G, result):
         if moment.stance[k]:
             change, size = mapped(maps[feet], 3 * k, b), moment.load_scale[k] * weight
             change_w = times(G, scale(size, change))
-            f = within_cone(add(vec(result.forces_w[k]), change_w), moment, k, weight)
+            before, arm = vec(result.forces_w[k]), foot_now(packed, moment, k, R).arm
+            f = within_cone(add(before, change_w), moment, k, weight)
             write(result.forces_w[k], 0, f)
-    result.residual[0] = 0.0
+            force, turn = sub(force, sub(f, before)), sub(turn, cross(arm, sub(f, before)))
+    lacks = 0.0
+    for i in range(3):
+        x, y = FORCE_WEIGHTS[i] * force[i] / weight, MOMENT_WEIGHTS[i] * turn[i] / (weight * height)
+        lacks += x * x + y * y
+    result.residual[0] = math.sqrt(lacks) if moment.stance.any() else 0.0
 
 
 @kernel

@@ -76,10 +76,6 @@ class Profile:
     command: tuple[float, float, float]
     """Forward, left [m/s] and yaw rate [rad/s] at which it was taught."""
     table: Table
-    digest: str
-    """Of the teacher's gains and the coordinator, when it was taught."""
-    repeat: float = 0.0
-    """How much another start of the teacher's differs: RMS torque error over RMS torque."""
 
     def __post_init__(self) -> None:
         """Raises `WrongUse` for a table of another shape, or one with gaps."""
