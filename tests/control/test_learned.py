@@ -13,8 +13,9 @@ from gaitwright.control.handover import LASTS
 from gaitwright.control.learned.contact_maps import contact_maps
 from gaitwright.control.learned.controller import Cells, LearnedController, blended
 from gaitwright.control.learned.law import TANGENT, note
-from gaitwright.control.learned.profile import BINS, ROW, Profile, mean_cycle, row_at, row_of
+from gaitwright.control.learned.profile import BINS, ROW, Profile, mean_cycle, row_of
 from gaitwright.control.numerical import NumericalController
+from gaitwright.control.programmed import played as played_row
 from gaitwright.errors import WrongUse
 from gaitwright.ground.scene import load_scene
 from gaitwright.learning.profile_lessons import taught
@@ -169,9 +170,9 @@ def test_between_two_cells_it_is_straight_and_beyond_them_the_nearest(speed, pha
 
 def test_a_table_goes_round():
     table = np.arange(BINS, dtype=float)[:, None] * np.ones((1, 3))
-    np.testing.assert_allclose(row_at(table, 0.5 / BINS), 0.5)
-    np.testing.assert_allclose(row_at(table, 1.0 - 0.5 / BINS), (BINS - 1) / 2)
-    np.testing.assert_allclose(row_at(table, -0.25), row_at(table, 0.75))
+    np.testing.assert_allclose(played_row(table, 0.5 / BINS), 0.5)
+    np.testing.assert_allclose(played_row(table, 1.0 - 0.5 / BINS), (BINS - 1) / 2)
+    np.testing.assert_allclose(played_row(table, -0.25), played_row(table, 0.75))
 
 
 @pytest.mark.parametrize(

@@ -82,7 +82,7 @@ def vocabulary_with(notes: tuple[str, ...]) -> Vocabulary:
 def check_note(name: str) -> None:
     """`WrongUse` where a note cannot be called so."""
     taken = {*VOCABULARY.names, *VOCABULARY.places, *FOREST.names, *KEPT}
-    if not name.strip() or not name.isprintable() or len(name) > LONGEST_NOTE or set(" ") == set(name):
+    if not name.strip() or not name.isprintable() or len(name) > LONGEST_NOTE:
         raise WrongUse(f"a note has a name of up to {LONGEST_NOTE} letters that can be read, not {name!r}")
     if name in taken or " is " in name or " and " in name or set(name) & set("<>=,"):
         raise WrongUse(f"{name!r} is no name for a note: it is measured, or reads like a condition")

@@ -9,8 +9,9 @@ from jaxtyping import Float
 
 from gaitwright.control.learned.contact_maps import contact_maps
 from gaitwright.control.learned.law import LAYOUT, play
-from gaitwright.control.learned.profile import Profile, row_at
+from gaitwright.control.learned.profile import Profile
 from gaitwright.control.numerical import NumericalController
+from gaitwright.control.programmed import played
 from gaitwright.control.unmet_acceleration import lumped
 from gaitwright.errors import WrongUse
 from gaitwright.model.kinematics import angles
@@ -25,7 +26,6 @@ from gaitwright.stages import Map, Now
 class Cells:
     """The profiles of one skill, in the order of the one velocity in which they differ most."""
 
-    profiles: tuple[Profile, ...]
     axis: int
     """Which part of the command that is: forward, left or yaw rate."""
     places: Float[np.ndarray, " cells"]
@@ -36,9 +36,8 @@ class Cells:
         commands = np.array([profile.command for profile in profiles])
         axis = int(np.argmax(np.ptp(commands, axis=0)))
         order = np.argsort(commands[:, axis], kind="stable")
-        ordered = tuple(profiles[k] for k in order)
-        tables = np.ascontiguousarray([profile.table for profile in ordered])
-        return cls(ordered, axis, commands[order, axis], tables)
+        tables = np.array([profiles[k].table for k in order])
+        return cls(axis, commands[order, axis], tables)
 
 
 @kernel
@@ -46,14 +45,14 @@ def blended(places, tables, asked, phase):
     """The row at a phase, straight between the two cells next to what is asked for, or the outermost one."""
     last = places.size - 1
     if asked <= places[0] or last == 0:
-        return row_at(tables[0], phase)
+        return played(tables[0], phase)
     if asked >= places[last]:
-        return row_at(tables[last], phase)
+        return played(tables[last], phase)
     k = 0
     while places[k + 1] < asked:
         k += 1
     share = (asked - places[k]) / (places[k + 1] - places[k])
-    return (1.0 - share) * row_at(tables[k], phase) + share * row_at(tables[k + 1], phase)
+    return (1.0 - share) * played(tables[k], phase) + share * played(tables[k + 1], phase)
 
 
 @kernel

@@ -104,14 +104,21 @@ def play(packed, inertia, maps, taught, seen, target, out):
     R = rotation(moment.orientation)
     G = ground_frame(moment, R)
     wanted = wanted_wrench(packed, inertia, profile, moment, R, G)
-    share_forces(packed, maps, profile, moment, wanted, R, G, result)
+    n = moment.stance.size
+    arms, columns = np.empty((n, 3)), np.empty((n, 3, 3))
+    for k in range(n):
+        foot = foot_now(packed, moment, k, R)
+        write(arms[k], 0, foot.arm)
+        for j in range(3):
+            write(columns[k, j], 0, foot.columns[j])
+    share_forces(packed, maps, profile, moment, wanted, arms, G, result)
     tau_max, _, _ = scales(packed)
     off, whole, total, rates = 0.0, 0.0, 0.0, np.empty(3)
-    for k in range(moment.stance.size):
-        foot, force = foot_now(packed, moment, k, R), vec(result.forces_w[k])
+    for k in range(n):
+        force = vec(result.forces_w[k])
         pull(packed, moment, k, R, vec(profile.lag[k]), vec(profile.lag_rate[k]), result.tau[k], rates)
         for j in range(3):
-            asked = profile.free[k, j] - dot(foot.columns[j], force) + result.tau[k, j]
+            asked = profile.free[k, j] - dot(vec(columns[k, j]), force) + result.tau[k, j]
             total += asked
             tau = min(max(asked, -tau_max[k, j]), tau_max[k, j])
             result.tau[k, j] = tau
@@ -150,9 +157,9 @@ def wanted_wrench(packed, inertia, profile, moment, R, G):
 
 
 @kernel
-def share_forces(packed, maps, profile, moment, wanted, R, G, result):
+def share_forces(packed, maps, profile, moment, wanted, arms, G, result):
     """Writes the forces of the feet that are down: what was taught, and the smallest change to the wrench
-    that is wanted, within friction and load."""
+    that is wanted, within friction and load. `arms`: base origin → contact points, world axes."""
     _, weight, height = scales(packed)
     n, feet = moment.stance.size, 0
     force, turn = wanted
@@ -163,7 +170,7 @@ def share_forces(packed, maps, profile, moment, wanted, R, G, result):
             f = times(G, vec(profile.force[k]))
             write(result.forces_w[k], 0, f)
             force = sub(force, f)
-            turn = sub(turn, cross(foot_now(packed, moment, k, R).arm, f))
+            turn = sub(turn, cross(vec(arms[k]), f))
     rest_f, rest_m = times_t(G, force), times_t(G, turn)
     b = np.empty(6)
     for i in range(3):
@@ -173,7 +180,7 @@ def share_forces(packed, maps, profile, moment, wanted, R, G, result):
         if moment.stance[k]:
             change, size = mapped(maps[feet], 3 * k, b), moment.load_scale[k] * weight
             change_w = times(G, scale(size, change))
-            before, arm = vec(result.forces_w[k]), foot_now(packed, moment, k, R).arm
+            before, arm = vec(result.forces_w[k]), vec(arms[k])
             f = within_cone(add(before, change_w), moment, k, weight)
             write(result.forces_w[k], 0, f)
             force, turn = sub(force, sub(f, before)), sub(turn, cross(arm, sub(f, before)))

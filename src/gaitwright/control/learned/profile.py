@@ -13,7 +13,6 @@ import numpy as np
 from jaxtyping import Float
 
 from gaitwright.errors import WrongUse
-from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.packing import Layout
 from gaitwright.signals import Gait
 
@@ -56,16 +55,6 @@ ROW = Layout.of(ProfileRow)
 row_of = ROW.views(ProfileRow)
 """The `ProfileRow` in a row, as views; for kernels too."""
 Table = Float[np.ndarray, "bins width"]
-
-
-@kernel
-def row_at(table, phase):
-    """The row of a periodic table at a phase, straight between two neighbours."""
-    bins = table.shape[0]
-    x = (phase % 1.0) * bins
-    i = int(x) % bins
-    t = x - int(x)
-    return (1.0 - t) * table[i] + t * table[(i + 1) % bins]
 
 
 @dataclass(frozen=True, eq=False)
