@@ -25,10 +25,10 @@ def one_scene(monkeypatch):
 
 
 def test_a_person_steps_in_where_the_rules_err_and_the_same_again(context, one_scene):
-    pupil, times = lesson_from_a_person(context)
+    pupil, times = lesson_from_a_person(context, context.seed)
     assert 1 <= times == len(pupil.told) <= taught_missions.MOST
     assert {told.given for told in pupil.told} == {"corrected"}
-    again, _ = lesson_from_a_person(context)
+    again, _ = lesson_from_a_person(context, context.seed)
     assert again.told == pupil.told and again.rulebook() == pupil.rulebook()
     report = driven(SHORT, pupil.rulebook()).report()
     assert report.arrived and set(report.driver_share) == {"hybrid"}

@@ -7,6 +7,7 @@ import pytest
 
 from gaitwright.ground.scene import load_scene
 from gaitwright.locomotion import Brain
+from gaitwright.model.kinematics import angles
 from gaitwright.model.robot import Robot
 from gaitwright.perception.fault_words import GOES_ON, LIES_DOWN, SENTENCES, Fault, fault_of
 from gaitwright.perception.watch_memory import size_of, tables
@@ -109,6 +110,14 @@ def test_a_push_raises_no_alarm() -> None:
         session = trotting(3.0)
         session.push(Push(1.0, direction, at=1.0))
         assert faults_of(session) == ()
+
+
+@pytest.mark.parametrize("skill", ["walk", "climb"])
+def test_a_knee_that_leans_on_its_stop_raises_no_alarm(skill: str) -> None:
+    """The stop bears what no motor does: a leg that is stretched out is not stuck."""
+    short = GO2.q_max.copy()
+    short[:, 2] = angles(GO2, GO2.nominal_feet)[0][:, 2] + 0.05
+    assert faults_of(trotting(2.0, robot=replace(GO2, q_max=short), skill=skill)) == ()
 
 
 def test_the_other_plant_raises_no_alarm() -> None:

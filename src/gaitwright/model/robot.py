@@ -50,6 +50,7 @@ unpacked = LAYOUT.views(RobotArrays)
 legs_of = LAYOUT.legs()
 tau_max_of, measures_of = LAYOUT.field("tau_max"), LAYOUT.field("measures")
 damping_of, friction_of = LAYOUT.field("damping"), LAYOUT.field("friction")
+q_min_of, q_max_of = LAYOUT.field("q_min"), LAYOUT.field("q_max")
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gaitwright.model.leg import leg_at
-from gaitwright.model.robot import Robot, damping_of, friction_of, scales
+from gaitwright.model.robot import Robot, damping_of, friction_of, q_max_of, q_min_of, scales
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import GRAVITY, add, rotation, scale, vec
 from gaitwright.numerics.matrices import row as row_of
@@ -49,6 +49,8 @@ DARK = 0.12
 """Nor for so long after readings stalled [s]."""
 BEARABLE = 0.095
 """Readings this late can be walked with, over √(h/g): go2 falls from 10 ticks of 2 ms on, and not at 8."""
+AT_STOP = 0.05
+"""So near to its end a joint may lean on its stop, or have done so a moment ago [rad]."""
 LEAST_LOAD = 0.04
 """A foot that carries less than this by torques, in weights, is taken to be in the air."""
 
@@ -175,7 +177,7 @@ def judge(packed, dt, forces, readings, b, up, gap, blind, t):
         healthy = misfit(vec(foot), up, foot[LOAD]) / weight + gap
         if distrusted[k] > 0.0 or (healthy < margin and worst[k] <= 0.0):
             continue
-        if blind or repeats(same, k):
+        if blind or repeats(same, k) or is_at_stop(packed, b.q[k], k):
             forget(forces, k)
             continue
         judge_leg(forces, readings, k, up, lack, healthy, weight, height, pace, margin, t, dt)
@@ -192,6 +194,17 @@ def judge(packed, dt, forces, readings, b, up, gap, blind, t):
             return MOTOR_DEAD, k, h, since
         return (LEG_DEAD, k, -1, since) if h == DEAD_LEG else (MOTOR_STUCK, k, h - STUCK, since)
     return NOTHING, -1, -1, 0.0
+
+
+@kernel
+def is_at_stop(packed, q, k):
+    """Whether a joint of leg k is at its end: the stop bears what its motor does not, and nobody feels how
+    much."""
+    low, high = q_min_of(packed)[k], q_max_of(packed)[k]
+    for j in range(3):  # noqa: SIM110 - a kernel
+        if q[j] < low[j] + AT_STOP or q[j] > high[j] - AT_STOP:
+            return True
+    return False
 
 
 @kernel

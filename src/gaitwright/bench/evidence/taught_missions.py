@@ -69,13 +69,13 @@ OTHER_ICE = tuple(
 )
 
 
-def lesson_from_a_person(context: Context) -> tuple[SkillPupil, int]:
+def lesson_from_a_person(context: Context, seed: int) -> tuple[SkillPupil, int]:
     """A pupil after three scenes on which somebody stepped in now and then, and how often."""
     teacher, times = ScriptedTeacher(), 0
     with TemporaryDirectory() as folder:
-        path = Skillbook.new(FOREST, "go2", "ten minutes", context.seed).save(Path(folder) / "a.skills")
+        path = Skillbook.new(FOREST, "go2", "ten minutes", seed).save(Path(folder) / "a.skills")
         with open_for_learning(path) as ledger:
-            room = LiveLessons(ledger, SkillPupil(context.seed))
+            room = LiveLessons(ledger, SkillPupil(seed))
             for trip in LESSONS:
                 context.voice.say(f"lessons: ten minutes, {trip.scene}")
                 source = Running(session_of(trip, room.ledger.book.rulebook), trip.scene)
