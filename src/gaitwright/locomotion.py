@@ -15,6 +15,7 @@ from gaitwright.control.learned.controller import LearnedController
 from gaitwright.control.learned.profile import Profile
 from gaitwright.control.numerical import Method, NumericalController
 from gaitwright.control.programmed import ProgrammedController
+from gaitwright.control.takeover import HYBRID, LEARNED, UNDECIDED, Drive, Takeover
 from gaitwright.errors import unknown
 from gaitwright.gait.coordinator import Coordinator
 from gaitwright.gait.desired_cycle import Manner, desired_cycle
@@ -91,6 +92,8 @@ class Brain:
     controllers: dict[str, Controller]
     watch: Watch | None = None
     """Who notices what is broken; `None`: nobody."""
+    takeover: Takeover | None = None
+    """Who decides who drives in a hybrid; `None`: the numerical controller does."""
 
     @classmethod
     def of(  # noqa: PLR0913 - the door to all settings; most calls name two of these
@@ -145,12 +148,15 @@ class Brain:
         )
 
     def with_profiles(self, profiles: Mapping[str, Sequence[Profile]]) -> "Brain":
-        """The same brain with a driver `learned`, who plays these profiles by the skill; where there is none,
-        the numerical controller drives. Raises `WrongUse` for profiles of a robot with other legs."""
-        numerical = self.controllers["numerical"]
-        assert isinstance(numerical, NumericalController)
+        """The same brain with a driver `learned`, who plays these profiles by the skill, and in a `hybrid`
+        where it knows the case. Raises `WrongUse` for profiles of a robot with other legs."""
+        numerical, coordinator = self.controllers["numerical"], self.coordinator
+        assert isinstance(numerical, NumericalController) and isinstance(coordinator, Coordinator)
         learned = LearnedController(self.robot, profiles, numerical)
-        return replace(self, controllers={**self.controllers, "learned": learned})
+        controllers = {**self.controllers, LEARNED: learned}
+        return replace(
+            self, controllers=controllers, takeover=Takeover(learned, coordinator.dt) if profiles else None
+        )
 
     def begin(
         self, mission: Mission, measured: Measured, phase: float = 0.0, before: "Mind | None" = None
@@ -176,6 +182,14 @@ class Brain:
         call = self.chooser.choose(route, sensed, now, ground)
         return call if call.driver else replace(call, driver=mission.driver)
 
+    def driver_of(
+        self, call: SkillCall, gait: Gait, target: MotionTarget, time: float, before: "Memories"
+    ) -> Drive:
+        """Who drives a call, in a hybrid; else nothing is decided."""
+        if self.takeover is None or call.driver != HYBRID:
+            return UNDECIDED
+        return self.takeover.decide(call, gait, target, time, before.drive, before.control)
+
 
 class Memories(NamedTuple):
     """What each stage handed back for the next lap."""
@@ -191,6 +205,8 @@ class Memories(NamedTuple):
     """The last one: another driver goes on from it."""
     change: Handover | None = None
     """The change of driver that is under way."""
+    drive: Drive = UNDECIDED
+    """Who drives, in a hybrid."""
 
 
 class Mind(NamedTuple):
@@ -245,9 +261,12 @@ def think(brain: Brain, mind: Mind, measured: Measured) -> tuple[Lap, Mind]:
     call = mind.call
     target, gait = brain.coordinator.move(mind.memories.gait, call, sensed, ground)
     handed = perf_counter_ns()
-    controller, before = brain.controller(call.driver), mind.memories
+    before, used = mind.memories, with_gait_in_use(call, gait)
+    drive = brain.driver_of(call, used.gait, target, sensed.time, before)
+    call = drive.call or call
+    controller = brain.controller(call.driver)
     own = before.control if before.controller is controller else None
-    command, control = controller.command(target, sensed, own, with_gait_in_use(call, gait), ground)
+    command, control = controller.command(target, sensed, own, used, ground)
     change = before.change
     if before.controller is not controller:
         change = begun(before.command, command, sensed.time)
@@ -258,8 +277,8 @@ def think(brain: Brain, mind: Mind, measured: Measured) -> tuple[Lap, Mind]:
     if watch is not None and watched is not None:
         watched = watch.heard(watched, target, command, sensed)
         lap = lap._replace(faults=watched.faults) if watched.faults else lap
-    memories = Memories(perceived, travelled, gait, control, controller, watched, command, change)
-    return lap, Mind(mind.mission, ground, mind.route, call, memories, mind.looked_at, mind.chosen_at)
+    memories = Memories(perceived, travelled, gait, control, controller, watched, command, change, drive)
+    return lap, Mind(mind.mission, ground, mind.route, mind.call, memories, mind.looked_at, mind.chosen_at)
 
 
 def with_gait_in_use(call: SkillCall, memory: Memory) -> SkillCall:

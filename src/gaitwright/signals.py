@@ -202,6 +202,8 @@ class SkillCall:
     """Why the robot must not go on, as a sentence."""
     memory: Mapping[str, str | float] = field(default_factory=dict, hash=False)
     """Working memory after this choice: what rules added and have not deleted."""
+    firm: bool = False
+    """Whether a rule that stands firm asks for it."""
 
 
 @packed

@@ -7,8 +7,8 @@ from gaitwright.bench.claims import lessons
 from gaitwright.bench.context import Context
 from gaitwright.bench.evidence import taught_missions
 from gaitwright.bench.evidence.taught_missions import Trip, driven, lesson_from_a_person
-from gaitwright.bench.workers import Workers
 from gaitwright.learning.skill_pupil import SkillPupil
+from gaitwright.workers import Workers
 
 SHORT = Trip("flat", 1.0, (1.0, 0.0), 0.5)
 

@@ -6,10 +6,10 @@ import pytest
 from gaitwright.bench.context import Context
 from gaitwright.bench.evidence import remembering
 from gaitwright.bench.trial import robot_named
-from gaitwright.bench.workers import Workers
 from gaitwright.learning.exam import held_out
 from gaitwright.learning.skill_pupil import SkillPupil
 from gaitwright.skills.vocabulary import vocabulary_with
+from gaitwright.workers import Workers
 
 GO2 = robot_named("go2")
 TEACHERS = remembering.teachers(GO2)

@@ -13,9 +13,9 @@ from gaitwright.bench.evidence.clips_text import constructs, loops, symbols
 from gaitwright.bench.evidence.random_rulebooks import RandomRulebook
 from gaitwright.bench.peers import rules_client
 from gaitwright.bench.peers.environment import RECIPES, PeerUnavailable
-from gaitwright.bench.workers import Workers
 from gaitwright.knowledge.audit import audit
 from gaitwright.knowledge.consult import consult
+from gaitwright.workers import Workers
 
 
 @pytest.fixture

@@ -14,9 +14,9 @@ from gaitwright.bench.evidence.agreement import KINDS, Tally, weakened
 from gaitwright.bench.evidence.gaits import GAITS, loads
 from gaitwright.bench.evidence.moments import LiveTrot
 from gaitwright.bench.evidence.sharing_oracles import Task, by_highs, by_quadprog
-from gaitwright.bench.workers import Workers
 from gaitwright.control.numerical import PLAIN
 from gaitwright.numerics.status import INFEASIBLE, SOLVED
+from gaitwright.workers import Workers
 
 
 @pytest.fixture(scope="module")

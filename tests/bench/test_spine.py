@@ -17,12 +17,12 @@ from gaitwright.bench.context import Context
 from gaitwright.bench.evidence.children import can_measure, measured
 from gaitwright.bench.measurement import Figure, at_least, at_most, count
 from gaitwright.bench.trial import Trial, brain_for, robot_named, simulate
-from gaitwright.bench.workers import Workers
 from gaitwright.errors import WrongUse
 from gaitwright.ground.scene import load_scene
 from gaitwright.plant.mujoco.simulation import MujocoPlant
 from gaitwright.session import DT, Push, Session
 from gaitwright.signals import Mission
+from gaitwright.workers import Workers
 
 SHORT = Walk("go2", "trot", 0.4, seconds=2.0, starts=1, roll=2.5)
 

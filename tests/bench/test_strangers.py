@@ -9,8 +9,8 @@ from gaitwright.bench.claims import strangers
 from gaitwright.bench.context import Context
 from gaitwright.bench.strangers.robot_files import robot_files
 from gaitwright.bench.trial import Outcome
-from gaitwright.bench.workers import Workers
 from gaitwright.model.catalogue import robot_file
+from gaitwright.workers import Workers
 
 HINGE = '<body pos="0 0 -.2"><joint/><geom size=".02"/>{}</body>'
 

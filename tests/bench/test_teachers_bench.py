@@ -14,12 +14,12 @@ from gaitwright.bench.peers import rules_client
 from gaitwright.bench.peers.environment import PeerUnavailable
 from gaitwright.bench.teachers import teachers, without_reasons
 from gaitwright.bench.trial import robot_named
-from gaitwright.bench.workers import Workers
 from gaitwright.induction.pupil import Lesson, Pupil
 from gaitwright.learning.courses import course
 from gaitwright.learning.kinematic import moments_of
 from gaitwright.skills.library import skill_names
 from gaitwright.skills.vocabulary import VOCABULARY
+from gaitwright.workers import Workers
 
 TRIPS = 15
 SMALL = {5: 10, 15: 10, 30: 12}

@@ -10,8 +10,8 @@ from rich.console import Console
 from rich.status import Status
 
 from gaitwright.bench.trial import DT, Outcome, Trial, simulate
-from gaitwright.bench.workers import Found, Given, Workers
 from gaitwright.numerics.compiled import is_warm
+from gaitwright.workers import Found, Given, Workers
 
 EVERY = 15.0
 """Where no terminal shows a moving line, progress comes this often [s]."""
@@ -71,8 +71,10 @@ class Context:
     def outcomes(self, what: str, trials: Sequence[Trial]) -> list[Outcome]:
         """What became of the trials, in their order."""
         self.voice.say(f"{what}: {len(trials)} starts")
-        return self.workers.outcomes(
-            trials, lambda done: self.voice.say(f"{what}: {done} of {len(trials)} starts", now=False)
+        return self.workers.each(
+            simulate,
+            trials,
+            lambda done: self.voice.say(f"{what}: {done} of {len(trials)} starts", now=False),
         )
 
     def each(self, what: str, task: Callable[[Given], Found], given: Sequence[Given]) -> list[Found]:

@@ -7,7 +7,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from gaitwright.bench.workers import cores
+from gaitwright.workers import cores
 
 PACKAGES = ("gaitwright", "numpy", "numba", "mujoco")
 

@@ -8,7 +8,7 @@ from gaitwright.bench.context import Context
 from gaitwright.bench.machine import machine
 from gaitwright.bench.measurement import Figure
 from gaitwright.bench.table import Result, Section, show, write
-from gaitwright.bench.workers import Workers
+from gaitwright.workers import Workers
 
 INTERRUPTED = 130
 """Exit code of a run that was cut off by the user."""

@@ -11,13 +11,17 @@ from gaitwright.plant.names import FAULTS, INTEGRATORS, PLANTS
 
 DRIVERS = {
     "numerical": "solves the robot's dynamics 500 times a second",
-    "hybrid": "does so too, with skills chosen by the rules of --skillbook",
+    "hybrid": "chooses skills by the rules of --skillbook, plays its profiles where they know the case",
+    "learned": "plays the torque profiles of --skillbook",
     "kinematic": "holds the joints to the angles that the motion needs, without forces",
     "programmed": "plays the joint angles of the gait back, whatever happens",
 }
 """Who can compute the torques now."""
-LATER = ("learned",)
-"""Drivers that will exist."""
+LESSONS = {
+    "skills": "which skill to use where",
+    "profiles": "the torques of each skill, from the numerical controller",
+    "all": "both",
+}
 BOOK_TASKS = {
     "merge": "two books to one",
     "export": "a book as text",
@@ -92,10 +96,14 @@ def folder(text: str) -> Path:
 
 
 def driver(text: str) -> str:
-    if text in LATER:
-        raise WrongUse(f"driver {text!r} does not exist yet; there is: {', '.join(DRIVERS)}")
     if text not in DRIVERS:
         raise unknown("driver", text, DRIVERS)
+    return text
+
+
+def lesson_named(text: str) -> str:
+    if text not in LESSONS:
+        raise unknown("lesson", text, LESSONS)
     return text
 
 

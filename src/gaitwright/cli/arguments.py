@@ -6,6 +6,7 @@ from gaitwright.bench import GROUPS
 from gaitwright.cli.arg_types import (
     BOOK_TASKS,
     DRIVERS,
+    LESSONS,
     book_task,
     count,
     distribution,
@@ -15,6 +16,7 @@ from gaitwright.cli.arg_types import (
     finite,
     folder,
     integrator,
+    lesson_named,
     package,
     plant,
     point,
@@ -42,7 +44,9 @@ def add_mission(parser: argparse.ArgumentParser) -> None:
     where.add_argument("--waypoints", type=point, nargs="+", metavar="X,Y", help=through)
     fitting = "wished speed in m/s (what the robot trots at)"
     parser.add_argument("--speed", type=positive, metavar="V", help=fitting)
-    rules = "driver hybrid: the rules that choose the skills, as a school left them"
+    rules = (
+        "drivers hybrid and learned: the rules that choose the skills, and the torque profiles, of this book"
+    )
     parser.add_argument("--skillbook", metavar="FILE", help=rules)
     own = "let the robot learn from its own mistakes on the way (a fall, slipping feet, no way made) into it"
     parser.add_argument("--learn", action="store_true", help=own)
@@ -64,6 +68,7 @@ def add_skill(parser: argparse.ArgumentParser) -> None:
         metavar="W",
         help="yaw rate to the left, in rad/s (what the skill is meant for)",
     )
+    parser.add_argument("--skillbook", metavar="FILE", help="driver learned: a book with torque profiles")
     cycle = "move the feet along this leg cycle: a name, or a JSON file (the skill's own)"
     parser.add_argument("--cycle", metavar="NAME|FILE", help=cycle)
     push = (
@@ -160,8 +165,8 @@ def add_skills(parser: argparse.ArgumentParser) -> None:
 
 
 def add_teach(parser: argparse.ArgumentParser) -> None:
-    lesson = "what is taught: skills, which to use where (skills)"
-    parser.add_argument("--lesson", choices=["skills"], default="skills", metavar="NAME", help=lesson)
+    lesson = f"what is taught: {listed(LESSONS)} (skills)"
+    parser.add_argument("--lesson", type=lesson_named, default="skills", metavar="NAME", help=lesson)
     robot = "a name that `gaitwright robots` lists, or an MJCF or URDF file (go2)"
     parser.add_argument("--robot", default="go2", metavar="NAME|FILE", help=robot)
     add_packages(parser)

@@ -6,6 +6,8 @@ from dataclasses import replace
 from gaitwright.cli import trips
 from gaitwright.cli.book_files import rulebook_of
 from gaitwright.cli.console import remark
+from gaitwright.cli.driving import profiles_for
+from gaitwright.control.takeover import HYBRID, LEARNED
 from gaitwright.errors import WrongUse
 from gaitwright.learning.live import LiveLessons
 from gaitwright.learning.notes import pupil_of
@@ -18,11 +20,16 @@ from gaitwright.skills.chooser import DefaultChooser
 from gaitwright.skills.rule_chooser import RuleChooser
 from gaitwright.stages import Chooser
 
+BY_BOOK = (HYBRID, LEARNED)
+"""Drivers that go by a skillbook."""
+
 
 def run(args: Namespace) -> int:
     trips.check_outputs(args)
-    if (args.driver == "hybrid") != (args.skillbook is not None):
-        raise WrongUse("driver hybrid and --skillbook FILE go together: the rules choose the skills")
+    if (args.driver in BY_BOOK) != (args.skillbook is not None):
+        raise WrongUse(
+            f"drivers {' and '.join(BY_BOOK)} and --skillbook FILE go together: its rules choose the skills"
+        )
     robot = trips.find_robot(args.robot, args.package)
     scene = trips.find_scene(args.scene, args.seed, robot, args.start)
     points = tuple(args.waypoints or [tuple(args.goal)])
@@ -33,16 +40,25 @@ def run(args: Namespace) -> int:
         DefaultChooser(robot).gait_for(args.speed)  # refuses a speed beyond the robot's reach
     mission = Mission(points, args.speed, args.driver)
     if not args.learn:
-        setting = trips.set_up(robot, scene, chooser_of(robot, args), args.distribution)
+        setting = with_profiles(
+            trips.set_up(robot, scene, chooser_of(robot, args), args.distribution), args.skillbook
+        )
         return trips.run(setting, mission, args)
     if args.skillbook is None:
         raise WrongUse(
             "--learn: a robot learns into a book, so driver hybrid and --skillbook FILE go with it"
         )
     with open_for_learning(args.skillbook) as ledger:  # from the beginning: nobody else teaches it meanwhile
-        setting = trips.set_up(robot, scene, RuleChooser(robot, ledger.book.rulebook), args.distribution)
+        chooser = RuleChooser(robot, ledger.book.rulebook)
+        setting = with_profiles(trips.set_up(robot, scene, chooser, args.distribution), args.skillbook)
         name = f"{scene.name} (seed {args.seed})"
         return trips.run(setting, mission, args, after=lambda recording: learn(ledger, recording, name))
+
+
+def with_profiles(setting: trips.Setting, path: str | None) -> trips.Setting:
+    """The same with a learned controller that plays the profiles of a book, where it has some."""
+    profiles = profiles_for(setting.robot, path) if path else {}
+    return replace(setting, brain=setting.brain.with_profiles(profiles)) if profiles else setting
 
 
 def learn(ledger: Ledger, recording: Recording, name: str) -> None:

@@ -6,6 +6,8 @@ from dataclasses import replace
 from gaitwright.assess.motor_requirements import HOPELESS, shortage, too_wide
 from gaitwright.cli import trips
 from gaitwright.cli.console import remark, working
+from gaitwright.cli.driving import profiles_of_skill
+from gaitwright.control.takeover import HYBRID, LEARNED
 from gaitwright.errors import WrongUse
 from gaitwright.gait.climb.climber import Climber, climb_call
 from gaitwright.gait.climb.plan import climb
@@ -24,8 +26,10 @@ PLANNED = ("climb", "descend")
 
 def run(args: Namespace) -> int:
     trips.check_outputs(args)
-    if args.driver == "hybrid":
+    if args.driver == HYBRID:
         raise WrongUse("driver hybrid chooses skills by rules; one skill that is held needs none")
+    if (args.driver == LEARNED) != (args.skillbook is not None):
+        raise WrongUse("driver learned and --skillbook FILE go together: it plays the profiles of that book")
     robot = trips.find_robot(args.robot, args.package)
     skill = find_skill(args.skill, robot)
     scene = trips.find_scene(args.scene, args.seed, robot)
@@ -37,6 +41,9 @@ def run(args: Namespace) -> int:
     check_motors(robot, chooser.skill_call, cycle)
     push = Push(*args.push, at=args.seconds / 2) if args.push else None
     setting = trips.set_up(robot, scene, chooser, args.distribution)
+    if args.skillbook:
+        profiles = profiles_of_skill(robot, args.skillbook, skill.name)
+        setting = replace(setting, brain=setting.brain.with_profiles(profiles))
     if cycle:
         setting = replace(setting, brain=setting.brain.with_cycle(skill.name, cycle))
     return trips.run(setting, Mission((), args.speed, args.driver), args, push)

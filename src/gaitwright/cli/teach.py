@@ -7,6 +7,7 @@ from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 from time import perf_counter
+from typing import Any
 
 from gaitwright.cli.book_files import is_skillbook, new_file, skillbook_of
 from gaitwright.cli.console import remark, show_pairs, working
@@ -53,14 +54,31 @@ def run(args: Namespace) -> int:
             if args.live:
                 import_module("gaitwright.cli.teach_live").run(robot, ledger, args)
             else:
-                go_to_school(robot, teacher, ledger, args)
+                teach(robot, teacher, ledger, args)
     except KeyboardInterrupt:
         remark(f"gaitwright: interrupted; what was learned so far is in {path}: the same command goes on")
         return 130
     finally:
-        if is_new and (ledger is None or len(ledger.book.steps) == 1):  # nothing was learned
+        if is_new and (ledger is None or is_blank(ledger.book)):
             path.unlink()
     return 0
+
+
+def is_blank(book: Skillbook) -> bool:
+    """Whether nothing was learned."""
+    return len(book.steps) == 1 and not book.profiles
+
+
+def teach(robot: Robot, teacher: ScriptedTeacher, ledger: Ledger, args: Namespace) -> None:
+    """The lessons that were asked for."""
+    figures = {}
+    if args.lesson != "profiles":
+        figures |= go_to_school(robot, teacher, ledger, args)
+    if args.lesson != "skills":
+        figures["torque_profiles"] = import_module("gaitwright.cli.teach_profiles").run(robot, ledger, args)
+        driven = f"--robot {args.robot} --skillbook {args.out}"
+        remark(f"next: gaitwright skill --driver learned {driven} --skill trot")
+    write_json(args.json, json.dumps(figures, indent=2, ensure_ascii=False))
 
 
 def check_live(args: Namespace) -> None:
@@ -119,13 +137,13 @@ def check_teachable(book: Skillbook, path: Path | str) -> None:
 
 
 # --- the school ------------------------------------------------------------------------------------
-def go_to_school(robot: Robot, teacher: ScriptedTeacher, ledger: Ledger, args: Namespace) -> None:
-    """The school and its exam, and what came of them."""
+def go_to_school(robot: Robot, teacher: ScriptedTeacher, ledger: Ledger, args: Namespace) -> dict[str, Any]:
+    """The school and its exam, and what came of them, as figures."""
     began = perf_counter()
     pupil, report = taught(robot, teacher, ledger, args)
     with working("the exam", worth_a_line=False):
         result = examined(pupil, teacher, held_out(robot, teacher, args.seed, EXAM))
-    tell(pupil, ledger.book.rulebook, report, result, perf_counter() - began, args)
+    return tell(pupil, ledger.book.rulebook, report, result, perf_counter() - began, args)
 
 
 def taught(
@@ -188,8 +206,8 @@ def tell(
     result: Result,
     seconds: float,
     args: Namespace,
-) -> None:
-    """What came of it."""
+) -> dict[str, Any]:
+    """What came of it, told, and as figures."""
     rules, given = rulebook.rules, report.given
     each = Counter(rule.action.skill for rule in rules)
     offered = [proposal.sentence for proposal in proposals(pupil)]
@@ -212,7 +230,6 @@ def tell(
         "wrong_while_sure": result.wrong_while_sure,
         "seconds": seconds,
     }
-    write_json(args.json, json.dumps(numbers, indent=2, ensure_ascii=False))
     states = ", ".join(f"{rule.name} ({status(rule)})" for rule in rules)
     came = f"{given['shown']} shown, {given['confirmed']} confirmed, {given['corrected']} corrected"
     rows = [
@@ -228,3 +245,4 @@ def tell(
         ("next", f"gaitwright explain {args.out}"),
     ]
     show_pairs(f"{args.out} holds what was learned", rows, to_stderr=args.json == "-")
+    return numbers

@@ -8,7 +8,7 @@ from pathlib import Path
 from gaitwright.errors import BadFile
 from gaitwright.knowledge.forest import Forest
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.skillbook import store, text
+from gaitwright.skillbook import profile_notes, store, text
 from gaitwright.skillbook.entries import (
     About,
     File,
@@ -21,6 +21,7 @@ from gaitwright.skillbook.entries import (
     steps_of,
 )
 from gaitwright.skillbook.history import Ancestor, Step, all_told, forgotten
+from gaitwright.skillbook.profile_notes import ProfileNotes
 from gaitwright.skillbook.pupil_notes import PupilNotes, actions_in, is_sound
 
 
@@ -40,6 +41,8 @@ class Skillbook:
     seed: int = 0
     ancestors: tuple[Ancestor, ...] = ()
     pupil: PupilNotes | None = None
+    profiles: tuple[ProfileNotes, ...] = ()
+    """Torque profiles, in the order of their names."""
 
     @staticmethod
     def new(start: Forest | Rulebook, robot: str = "", name: str = "", seed: int = 0) -> "Skillbook":
@@ -83,7 +86,7 @@ def entry_of(book: Skillbook) -> File:
     rulebook = rulebook_entry(book.rulebook)
     steps = tuple(step_entry(step) for step in book.steps)
     ancestors = tuple(ancestor_entry(a) for a in book.ancestors)
-    return File(about_of(book), rulebook, steps, ancestors, book.pupil)
+    return File(about_of(book), rulebook, steps, ancestors, book.pupil, book.profiles)
 
 
 def about_of(book: Skillbook) -> About:
@@ -91,7 +94,8 @@ def about_of(book: Skillbook) -> About:
     rules = book.rulebook
     counts = (len(book.steps), len(rules.rules), len(rules.preferences), len(rules.forest.trees))
     own = (book.name, book.robot, book.made_by, book.seed, rules.lessons)
-    return checked(About(*own, *counts, len(book.ancestors), int(book.pupil is not None)), About)
+    others = len(book.ancestors), int(book.pupil is not None), len(book.profiles)
+    return checked(About(*own, *counts, *others), About)
 
 
 def book_of(entry: File, source: str) -> Skillbook:
@@ -100,7 +104,8 @@ def book_of(entry: File, source: str) -> Skillbook:
     steps = steps_of(entry.steps, rulebook.events, source)
     about, ancestors = entry.about, ancestors_of(entry.ancestors)
     check_notes(entry.pupil, steps, source)
-    own = (about.made_by, about.seed, ancestors, entry.pupil)
+    check_profiles(entry.profiles, source)
+    own = (about.made_by, about.seed, ancestors, entry.pupil, entry.profiles)
     return Skillbook(about.name, about.robot, rulebook, steps, *own)
 
 
@@ -115,6 +120,15 @@ def check_notes(notes: PupilNotes | None, steps: tuple[Step, ...], source: str) 
     actions = len({one.action for one in told})
     if notes.heard > len(told) or not is_sound(notes) or (told and actions_in(notes) > actions):
         raise BadFile(f"{source}: its pupil has learned from other lessons than it holds")
+
+
+def check_profiles(profiles: tuple[ProfileNotes, ...], source: str) -> None:
+    """Raises `BadFile` where one of a book's profiles is damaged, or stands in it twice."""
+    for profile in profiles:
+        if not profile_notes.is_sound(profile):
+            raise BadFile(f"{source}: its profile {profile_notes.name_of(profile)} holds what is no number")
+    if len({profile_notes.name_of(profile) for profile in profiles}) < len(profiles):
+        raise BadFile(f"{source}: it holds two profiles of one skill at one velocity")
 
 
 def _begun(rulebook: Rulebook, note: str) -> Step:

@@ -27,6 +27,7 @@ from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.rules import Event, Rulebook
 from gaitwright.knowledge.told import Given, Told
 from gaitwright.skillbook.history import Ancestor, How, Step
+from gaitwright.skillbook.profile_notes import ProfileNotes
 from gaitwright.skillbook.pupil_notes import PupilNotes
 
 T = TypeVar("T")
@@ -48,6 +49,7 @@ class About(Strict, frozen=True):
     trees: Place = 0
     ancestors: Place = 0
     pupil: Annotated[int, Meta(ge=0, le=1)] = 0
+    profiles: Place = 0
 
 
 class AncestorEntry(Strict, frozen=True):
@@ -115,6 +117,8 @@ class File(Strict, frozen=True):
     steps: tuple[StepEntry, ...]
     ancestors: tuple[AncestorEntry, ...] = ()
     pupil: PupilNotes | None = None
+    profiles: tuple[ProfileNotes, ...] = ()
+    """In the order of their names."""
 
 
 ENCODER = msgspec.json.Encoder(order="deterministic")

@@ -26,6 +26,7 @@ from gaitwright.skillbook.entries import (
     encoded,
     rulebook_entry,
 )
+from gaitwright.skillbook.profile_notes import ProfileNotes, name_of
 from gaitwright.skillbook.pupil_notes import PupilNotes
 
 KEYS = {
@@ -38,6 +39,7 @@ KEYS = {
     "steps": ("place",),
     "events": ("step", "place"),
     "pupil": ("place",),
+    "profiles": ("name",),
 }
 """The key columns of each table, in an order in which rows can be written."""
 
@@ -120,6 +122,22 @@ def rule_rows(place: int, rule: RuleEntry) -> Rows:
     return rows
 
 
+def profile_rows(profiles: Iterable[ProfileNotes]) -> Rows:
+    """The rows of torque profiles."""
+    return {("profiles", (name_of(profile),)): encoded(profile) for profile in profiles}
+
+
+def change_profiles(
+    db: sqlite3.Connection, before: Sequence[ProfileNotes], after: Sequence[ProfileNotes]
+) -> None:
+    """Writes what differs between the profiles of two books."""
+    if before is after:
+        return
+    was, now = ({name_of(profile): profile for profile in some} for some in (before, after))
+    remove(db, [("profiles", (name,)) for name in was.keys() - now.keys()])
+    put(db, profile_rows(profile for name, profile in now.items() if was.get(name) != profile))
+
+
 def step_rows(place: int, step: StepEntry, events: Iterable[EventEntry]) -> Rows:
     """The rows of one step and what it moved."""
     rows: Rows = {("steps", (place,)): encoded(step)}
@@ -140,7 +158,8 @@ def read(db: sqlite3.Connection, source: str) -> File:
     rules = _rules(db, about, source)
     notes = _row_of(_read(db, "pupil", PupilNotes, source), about.pupil, "pupils", source)
     rulebook = BookEntry(FORMAT, trees, rules, wishes, events, about.lessons)
-    return File(about, rulebook, steps, ancestors, notes[0] if notes else None)
+    profiles = _profiles(_read(db, "profiles", ProfileNotes, source), about.profiles, source)
+    return File(about, rulebook, steps, ancestors, notes[0] if notes else None, profiles)
 
 
 def _read(db: sqlite3.Connection, table: str, kind: type[T], source: str) -> dict[tuple, T]:
@@ -161,6 +180,13 @@ def _row_of(found: Mapping[tuple, T], count: int, what: str, source: str) -> tup
     """Rows that stand in a row, none missing."""
     if len(found) != count or [key[-1] for key in found] != list(range(count)):
         raise BadFile(f"{source} is damaged: of {count} {what} it has {len(found)}, or in no order")
+    return tuple(found.values())
+
+
+def _profiles(found: Mapping[tuple, ProfileNotes], count: int, source: str) -> tuple[ProfileNotes, ...]:
+    """Profiles under their own names, none missing."""
+    if len(found) != count or any(name != name_of(profile) for (name,), profile in found.items()):
+        raise BadFile(f"{source} is damaged: of {count} profiles it has {len(found)}, or under other names")
     return tuple(found.values())
 
 

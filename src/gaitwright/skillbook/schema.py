@@ -38,7 +38,12 @@ CREATE TABLE pupil (place INTEGER NOT NULL PRIMARY KEY CHECK (place = 0),
     content TEXT NOT NULL, seal BLOB NOT NULL) STRICT;
 """
 
-MIGRATIONS: tuple[str, ...] = (FIRST, PUPIL)
+PROFILES = """
+CREATE TABLE profiles (name TEXT NOT NULL PRIMARY KEY,
+    content TEXT NOT NULL, seal BLOB NOT NULL) STRICT, WITHOUT ROWID;
+"""
+
+MIGRATIONS: tuple[str, ...] = (FIRST, PUPIL, PROFILES)
 """What makes each version from the one before. Books of every version load forever: only ever append."""
 
 LIMITS = {

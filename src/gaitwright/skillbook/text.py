@@ -39,6 +39,7 @@ from gaitwright.skillbook.entries import (
     encoded,
 )
 from gaitwright.skillbook.history import How
+from gaitwright.skillbook.profile_notes import ProfileNotes, name_of
 from gaitwright.skillbook.pupil_notes import PupilNotes
 
 HEAD = "gaitwright skillbook text 1"
@@ -99,6 +100,7 @@ KINDS: dict[str, type] = {
     "step": StepLine,
     "event": EventEntry,
     "pupil": PupilNotes,
+    "profile": ProfileNotes,
 }
 
 
@@ -128,6 +130,8 @@ def _lines(entry: File) -> Iterator[tuple[str, Any]]:
         start += step.events
     if entry.pupil is not None:
         yield "pupil", entry.pupil
+    for profile in entry.profiles:
+        yield "profile", profile
 
 
 def _rule_lines(rule: RuleEntry, trees: list[str]) -> Iterator[tuple[str, Any]]:
@@ -162,6 +166,7 @@ class Draft:
     wishes: list[WishEntry] = field(default_factory=list)
     steps: list[tuple[StepLine, list[EventEntry]]] = field(default_factory=list)
     pupils: list[PupilNotes] = field(default_factory=list)
+    profiles: list[ProfileNotes] = field(default_factory=list)
 
 
 def read(content: str, source: str) -> File:
@@ -220,6 +225,7 @@ def _take(draft: Draft, line: str) -> None:
             "tree": draft.trees,
             "wish": draft.wishes,
             "pupil": draft.pupils,
+            "profile": draft.profiles,
         }
         lists[word].append(value)
 
@@ -230,6 +236,7 @@ def _file(draft: Draft, source: str) -> File:
     if b is None:
         raise BadFile(f"{source} does not say what book it is: a line 'book' is missing")
     trees, wishes, ancestors = tuple(draft.trees), tuple(draft.wishes), tuple(draft.ancestors)
+    profiles = tuple(sorted(draft.profiles, key=name_of))
     names = [tree.name for tree in trees]
     rules = tuple(_rule(rule, names, source) for rule in draft.rules.values())
     steps = tuple(
@@ -237,10 +244,18 @@ def _file(draft: Draft, source: str) -> File:
         for step, events in draft.steps
     )
     events = tuple(event for _, moved in draft.steps for event in moved)
-    counts = (len(steps), len(rules), len(wishes), len(trees), len(ancestors), len(draft.pupils))
+    counts = (
+        len(steps),
+        len(rules),
+        len(wishes),
+        len(trees),
+        len(ancestors),
+        len(draft.pupils),
+        len(profiles),
+    )
     about = About(b.name, b.robot, b.made_by, b.seed, b.lessons, *counts)
     rulebook = BookEntry(FORMAT, trees, rules, wishes, events, b.lessons)
-    return File(about, rulebook, steps, ancestors, draft.pupils[0] if draft.pupils else None)
+    return File(about, rulebook, steps, ancestors, draft.pupils[0] if draft.pupils else None, profiles)
 
 
 def _rule(rule: DraftRule, trees: list[str], source: str) -> RuleEntry:

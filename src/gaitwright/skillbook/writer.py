@@ -1,6 +1,7 @@
 """Learning into a file: every lesson is on the disk before anyone is told that it was learned."""
 
 import sqlite3
+from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
@@ -13,6 +14,7 @@ from gaitwright.skillbook import rows
 from gaitwright.skillbook.book import Skillbook, about_of, book_of
 from gaitwright.skillbook.entries import checked, encoded, event_entries, step_entry
 from gaitwright.skillbook.history import Step, forgotten, names_told
+from gaitwright.skillbook.profile_notes import MOST, ProfileNotes, name_of
 from gaitwright.skillbook.pupil_notes import PupilNotes
 from gaitwright.skillbook.schema import MAX_BYTES, connected, located, migrate, number, sentences, version_of
 
@@ -65,6 +67,14 @@ class Ledger:
         rulebook = replace(rulebook, events=self.book.rulebook.events)
         return self._store(replace(self.book, rulebook=rulebook, pupil=notes), {})
 
+    def keep_profiles(self, profiles: Iterable[ProfileNotes]) -> Skillbook:
+        """Stores torque profiles in place of all that were in the book. Raises `WrongUse` where there are
+        too many."""
+        ordered = tuple(sorted((checked(profile, ProfileNotes) for profile in profiles), key=name_of))
+        if len(ordered) > MOST:
+            raise WrongUse(f"a skillbook holds at most {MOST} profiles, not {len(ordered)}")
+        return self._store(replace(self.book, profiles=ordered), {})
+
     def _moved(self, events: tuple[Event, ...], lessons: int = 0) -> Rulebook:
         """The rules as they are in the file, with more events and lessons behind them."""
         now = self.book.rulebook
@@ -100,6 +110,7 @@ class Ledger:
         with sentences(self.path):
             try:
                 rows.change(self._db, self.book.rulebook, book.rulebook)
+                rows.change_profiles(self._db, self.book.profiles, book.profiles)
                 rows.put(self._db, added)
                 self._db.execute("COMMIT")
             except BaseException:  # an interrupt too: what was not acknowledged must not be half there

@@ -1,64 +1,40 @@
 """MotionTarget + Sensed → MotorCommand by torque profiles that were taught: the LC (rows L3, L9)."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 from jaxtyping import Float
 
+from gaitwright.control.learned.cells import Cells, row_at
 from gaitwright.control.learned.contact_maps import contact_maps
 from gaitwright.control.learned.law import LAYOUT, play
 from gaitwright.control.learned.profile import Profile
+from gaitwright.control.learned.warp import can_be_warped, warped
 from gaitwright.control.numerical import NumericalController
-from gaitwright.control.programmed import played
 from gaitwright.control.unmet_acceleration import lumped
 from gaitwright.errors import WrongUse
 from gaitwright.model.kinematics import angles
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.packing import Row
-from gaitwright.signals import MotionTarget, MotorCommand, Sensed
+from gaitwright.signals import Gait, MotionTarget, MotorCommand, Sensed
 from gaitwright.stages import Map, Now
 
-
-@dataclass(frozen=True)
-class Cells:
-    """The profiles of one skill, in the order of the one velocity in which they differ most."""
-
-    axis: int
-    """Which part of the command that is: forward, left or yaw rate."""
-    places: Float[np.ndarray, " cells"]
-    tables: Float[np.ndarray, "cells bins width"]
-
-    @classmethod
-    def of(cls, profiles: Sequence[Profile]) -> "Cells":
-        commands = np.array([profile.command for profile in profiles])
-        axis = int(np.argmax(np.ptp(commands, axis=0)))
-        order = np.argsort(commands[:, axis], kind="stable")
-        tables = np.array([profiles[k].table for k in order])
-        return cls(axis, commands[order, axis], tables)
+command_of = MotionTarget.layout.field("command")
+phase_of = MotionTarget.layout.field("phase")
+SAME_PERIOD = 1e-9
+"""[s]"""
+SPEED_ROOM, TURN_ROOM = 0.04, 0.03
+"""A velocity is covered so far beyond what was taught, over √(g h) and √(g/h)."""
 
 
 @kernel
-def blended(places, tables, asked, phase):
-    """The row at a phase, straight between the two cells next to what is asked for, or the outermost one."""
-    last = places.size - 1
-    if asked <= places[0] or last == 0:
-        return played(tables[0], phase)
-    if asked >= places[last]:
-        return played(tables[last], phase)
-    k = 0
-    while places[k + 1] < asked:
-        k += 1
-    share = (asked - places[k]) / (places[k + 1] - places[k])
-    return (1.0 - share) * played(tables[k], phase) + share * played(tables[k + 1], phase)
-
-
-@kernel
-def tick(packed, inertia, maps, places, tables, speed, phase, seen, asked, out):
-    """One tick: the taught row, and what is played of it."""
-    play(packed, inertia, maps, blended(places, tables, speed, phase), seen, asked, out)
+def tick(packed, inertia, maps, way, speeds, turns, tables, seen, asked, taught, out):
+    """One tick: writes the taught row, and what is played of it."""
+    row_at(way, speeds, turns, tables, command_of(asked), phase_of(asked), taught)
+    play(packed, inertia, maps, taught, seen, asked, out)
 
 
 @dataclass(frozen=True)
@@ -69,6 +45,8 @@ class LearnedController:
     profiles: Mapping[str, Sequence[Profile]]
     """By the skill."""
     teacher: NumericalController
+    paced: dict[Gait, Cells | None] = field(default_factory=dict, init=False, repr=False, compare=False)
+    """Profiles at other paces worked out so far: each is a function of its gait."""
 
     def __post_init__(self) -> None:
         """Raises `WrongUse` for the profiles of a robot with other legs."""
@@ -88,24 +66,51 @@ class LearnedController:
     ) -> tuple[MotorCommand, Row]:
         """Joint torques [N·m] for this tick, and its `Played`."""
         assert call is not None, "a profile belongs to a gait"
-        cells = self.cells.get(call.gait.name)
+        cells = self.cells_of(call.gait)
         if cells is None:
             command, _ = self.teacher.command(target, sensed, None, call, ground)
             return command, self.blank
-        out, speed = np.empty(self.blank.size), float(target.command[cells.axis])
+        out, taught = np.empty(self.blank.size), np.empty(cells.tables.shape[3])
         tick(
             self.robot.packed,
             self.inertia,
             self.maps,
-            cells.places,
+            cells.way,
+            cells.speeds,
+            cells.turns,
             cells.tables,
-            speed,
-            target.phase,
             sensed.row,
             target.row,
+            taught,
             out,
         )
         return MotorCommand.of_row(out[self.where]), out
+
+    def covers(self, gait: Gait, target: MotionTarget) -> bool:
+        """Whether there are profiles of a gait around the velocity that is asked for."""
+        cells = self.cells_of(gait)
+        if cells is None:
+            return False
+        forward, left, turn = target.command.tolist()
+        return cells.covers(forward, left, turn, *self.room)
+
+    def cells_of(self, gait: Gait) -> Cells | None:
+        """The profiles of a gait, at its own pace; `None` where there are none."""
+        cells = self.cells.get(gait.name)
+        if cells is None or abs(gait.period - cells.period) < SAME_PERIOD:
+            return cells
+        if gait not in self.paced:
+            ratio = gait.period / cells.period
+            profiles = self.profiles[gait.name]
+            can = can_be_warped(ratio)
+            self.paced[gait] = Cells.of([warped(self.robot, p, ratio) for p in profiles]) if can else None
+        return self.paced[gait]
+
+    @cached_property
+    def room(self) -> tuple[float, float]:
+        """So far beyond what was taught a velocity is covered [m/s, rad/s]."""
+        h, w0 = self.robot.height, self.robot.natural_frequency
+        return SPEED_ROOM * w0 * h, TURN_ROOM * w0
 
     @cached_property
     def cells(self) -> dict[str, Cells]:

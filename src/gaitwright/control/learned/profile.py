@@ -6,7 +6,7 @@ changes f. The errors that the teacher had at each phase are kept too: only what
 regulated, so that in the taught cycle nothing is.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
@@ -65,6 +65,12 @@ class Profile:
     command: tuple[float, float, float]
     """Forward, left [m/s] and yaw rate [rad/s] at which it was taught."""
     table: Table
+    repeat: float = 0.0
+    """`torque_error` between what the teacher did from one start and from another."""
+    answers: Float[np.ndarray, "probes torques"] = field(default_factory=lambda: np.zeros((0, 0)))
+    """Torques of the teacher in a few states [N·m]: whoever answers otherwise teaches other profiles."""
+    edited: str = ""
+    """What a person changed in it; empty: nothing."""
 
     def __post_init__(self) -> None:
         """Raises `WrongUse` for a table of another shape, or one with gaps."""
@@ -103,3 +109,10 @@ def mean_cycle(
     around = np.concatenate([seen - BINS, seen, seen + BINS])
     thrice = np.tile(mean, (3, 1))
     return np.stack([np.interp(np.arange(BINS), around, column) for column in thrice.T], axis=1)
+
+
+def torque_error(one: Table, other: Table, legs: int) -> float:
+    """RMS of the difference of the torques of two tables over the RMS of the other's."""
+    where = ROW.slices(legs)["tau"]
+    off, whole = one[:, where] - other[:, where], other[:, where]
+    return float(np.sqrt(np.mean(off**2) / np.mean(whole**2)))

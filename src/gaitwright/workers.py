@@ -5,12 +5,10 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Callable, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from types import TracebackType
 from typing import TypeVar
-
-from gaitwright.bench.trial import Outcome, Trial, simulate
 
 Given = TypeVar("Given")
 Found = TypeVar("Found")
@@ -26,7 +24,7 @@ def cores() -> int:
 
 
 class Workers:
-    """Processes that simulate; a context manager, after which none is left."""
+    """Processes that work for this one; a context manager, after which none is left."""
 
     def __init__(self, number: int | None = None) -> None:
         self.number = number or min(MOST, cores())
@@ -42,22 +40,26 @@ class Workers:
         if self._pool:
             self._pool.shutdown(wait=True, cancel_futures=True)
 
-    def outcomes(self, trials: Sequence[Trial], tell: Callable[[int], None]) -> list[Outcome]:
-        """What became of each trial, in their order; `tell` hears how many are done."""
-        return self.each(simulate, trials, tell)
+    def as_done(self, task: Callable[[Given], Found], given: Iterable[Given]) -> Iterator[Found]:
+        """What the task makes of each thing given, as soon as it is there."""
+        for future in as_completed(self._begun(task, given)):
+            yield future.result()
 
     def each(
         self, task: Callable[[Given], Found], given: Sequence[Given], tell: Callable[[int], None]
     ) -> list[Found]:
         """What the task makes of each thing given, in their order; `tell` hears how many are done."""
-        if self._pool is None:
-            context = multiprocessing.get_context("spawn")
-            self._pool = ProcessPoolExecutor(self.number, context, initializer=obey)
-        futures = [self._pool.submit(task, one) for one in given]
+        futures = self._begun(task, given)
         for done, future in enumerate(as_completed(futures), start=1):
             future.result()
             tell(done)
         return [future.result() for future in futures]
+
+    def _begun(self, task: Callable[[Given], Found], given: Iterable[Given]) -> list[Future[Found]]:
+        if self._pool is None:
+            context = multiprocessing.get_context("spawn")
+            self._pool = ProcessPoolExecutor(self.number, context, initializer=obey)
+        return [self._pool.submit(task, one) for one in given]
 
 
 def obey() -> None:

@@ -1,0 +1,45 @@
+"""The torque profiles of a book for the drivers that play them, and a sentence for what is not played."""
+
+from gaitwright.cli.book_files import is_skillbook
+from gaitwright.cli.console import remark, working
+from gaitwright.control.learned.profile import Profile
+from gaitwright.errors import WrongUse, short
+from gaitwright.learning.profile_books import Playable, playable
+from gaitwright.model.robot import Robot
+from gaitwright.skillbook.book import Skillbook
+
+
+def profiles_for(robot: Robot, path: str) -> dict[str, list[Profile]]:
+    """The profiles of a book that this robot may play; says which are out of date. Nothing in a file with
+    rules alone."""
+    found = looked_up(robot, path)
+    for sentence in found.outdated.values():
+        remark(f"{sentence}, and goes on to; {again(robot, path)}")
+    return found.profiles
+
+
+def profiles_of_skill(robot: Robot, path: str, skill: str) -> dict[str, list[Profile]]:
+    """The profiles of one skill. Raises `WrongUse` where there are none, or they are out of date."""
+    found = looked_up(robot, path, skill)
+    if skill in found.outdated:
+        raise WrongUse(f"{found.outdated[skill]}; {again(robot, path)}")
+    if skill not in found.profiles:
+        known = ", ".join(sorted({notes.skill for notes in Skillbook.load(path).profiles})) or "none"
+        raise WrongUse(f"{short(path)} has no profiles of {skill}; it has: {known}; {again(robot, path)}")
+    return found.profiles
+
+
+def looked_up(robot: Robot, path: str, *skills: str) -> Playable:
+    """The profiles of a book, of the skills named or of all."""
+    if not is_skillbook(path):
+        return Playable({}, {})
+    book = Skillbook.load(path)
+    if book.profiles and book.robot != robot.name:
+        raise WrongUse(f"the profiles of {short(path)} were taken from {book.robot}, not from {robot.name}")
+    with working("looking whether the profiles are up to date", worth_a_line=None):
+        return playable(book, robot, short(path), skills or None)
+
+
+def again(robot: Robot, path: str) -> str:
+    """How profiles are taught."""
+    return f"teach them by `gaitwright teach --lesson profiles --robot {robot.name} --out {short(path)}`"

@@ -1,0 +1,62 @@
+"""Who drives in a hybrid: the learned controller where it knows the case, the numerical one elsewhere (L10).
+
+It hands back for not being in a taught situation, not for stumbling: handed back in a stumble the robot falls
+more often (of 110 pushed runs 55 instead of 40).
+"""
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+from gaitwright.control.learned.controller import LearnedController
+from gaitwright.numerics.packing import Row
+from gaitwright.signals import Gait, MotionTarget, SkillCall
+
+TAKES_OVER = 0.1
+"""A case must be known for so long before the learned controller takes over [s]."""
+FOREIGN = 0.4
+"""Where this share of the torques is not the profile's, over a cycle, the situation is not the taught one."""
+STAYS_BACK = 2.0
+"""Then the numerical controller drives for so long at least [s]."""
+HYBRID, LEARNED, NUMERICAL = "hybrid", "learned", "numerical"
+
+
+class Drive(NamedTuple):
+    """Who drives, and since when what is known."""
+
+    driver: str = NUMERICAL
+    asked: SkillCall | None = None
+    """What was asked for last, …"""
+    call: SkillCall | None = None
+    """… and the same with who drives it."""
+    known_since: float = 0.0
+    """From then on the case is known [s]."""
+    foreign: float = 0.0
+    """Mean share of the torques that is not the profile's."""
+
+
+UNDECIDED = Drive()
+
+
+@dataclass(frozen=True)
+class Takeover:
+    """Decides at every tick of a hybrid who drives."""
+
+    learned: LearnedController
+    dt: float
+    """Control period [s]."""
+
+    def decide(
+        self, asked: SkillCall, gait: Gait, target: MotionTarget, time: float, was: Drive, played: Row | None
+    ) -> Drive:
+        """Who drives now. `asked`: by whoever chooses the skill; `gait`: that the legs are in; `time` [s];
+        `played`: of the tick before, where the learned controller drove it."""
+        foreign = was.foreign
+        if was.driver == LEARNED and played is not None:
+            foreign += self.dt / gait.period * (1.0 - float(played[-1]) - foreign)
+        is_known = asked.firm and self.learned.covers(gait, target)
+        since = was.known_since if is_known else time + TAKES_OVER
+        if foreign > FOREIGN:
+            since, is_known, foreign = time + STAYS_BACK, False, 0.0
+        driver = LEARNED if is_known and time >= since - 1e-9 else NUMERICAL
+        is_same = driver == was.driver and asked is was.asked
+        return Drive(driver, asked, was.call if is_same else replace(asked, driver=driver), since, foreign)
