@@ -5,7 +5,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from time import perf_counter_ns
 from typing import NamedTuple
 
@@ -14,19 +14,19 @@ from gaitwright.control.kinematic import KinematicController
 from gaitwright.control.learned.controller import LearnedController
 from gaitwright.control.learned.profile import Profile
 from gaitwright.control.numerical import Method, NumericalController
-from gaitwright.control.programmed import ProgrammedController
 from gaitwright.control.takeover import HYBRID, LEARNED, UNDECIDED, Drive, Takeover
 from gaitwright.errors import unknown
 from gaitwright.gait.coordinator import Coordinator
-from gaitwright.gait.desired_cycle import Manner, desired_cycle
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle
 from gaitwright.ground.scene import Scene
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.model.robot import Robot
 from gaitwright.navigation.navigator import Navigator
+from gaitwright.perception.estimated_state import EstimatedState, Sensing
 from gaitwright.perception.fault_words import Fault
 from gaitwright.perception.known_ground import KnownGround
 from gaitwright.perception.watch import Watch, WatchMemory
+from gaitwright.programmes import Programmed
 from gaitwright.signals import (
     Gait,
     GroundMap,
@@ -41,43 +41,10 @@ from gaitwright.signals import (
 from gaitwright.skills.chooser import DefaultChooser
 from gaitwright.skills.foothold_guard import FootholdGuard
 from gaitwright.skills.rule_chooser import RuleChooser
-from gaitwright.stages import Chooser, Controller, Map, Memory, MotionStage, Navigation, Now, Perception
+from gaitwright.stages import Chooser, Controller, Memory, MotionStage, Navigation, Perception
 
 LOOK_EVERY = 0.1
 """The navigator looks at the route this often [s]."""
-
-MOST_PROGRAMMES = 64
-"""Programmed motions kept; on a long way with changing speeds there is no end of them."""
-
-
-@dataclass(frozen=True)
-class Programmed:
-    """Driver `programmed`: every call plays the joint angles of its own undisturbed gait."""
-
-    robot: Robot
-    cycles: dict[str, LegCycle] = field(default_factory=dict)
-    """Leg cycles by skill, in place of those that come along."""
-    known: dict[tuple[Gait, tuple[float, float], float], ProgrammedController] = field(
-        default_factory=dict, init=False, repr=False, compare=False
-    )
-    """Programmes worked out so far: each is a function of its call, so what is here changes no result."""
-
-    def command(
-        self, target: MotionTarget, sensed: Sensed, memory: None = None, call: Now = None, ground: Map = None
-    ) -> tuple[MotorCommand, None]:
-        """What the programme of the call says at the gait's phase."""
-        assert call is not None, "a programme belongs to a call"
-        return self.programme(call.gait, call.velocity, call.turn).command(target, sensed)
-
-    def programme(self, gait: Gait, velocity: tuple[float, float], turn: float) -> ProgrammedController:
-        """The programme of a gait at a velocity [m/s] and yaw rate [rad/s]."""
-        motion = gait, velocity, turn
-        if motion not in self.known:
-            if len(self.known) == MOST_PROGRAMMES:
-                self.known.clear()
-            cycle = desired_cycle(self.robot, *motion, Manner(cycle=self.cycles.get(gait.name), sways=True))
-            self.known[motion] = ProgrammedController(self.robot, cycle.q, cycle.qd, cycle.stance)
-        return self.known[motion]
 
 
 @dataclass(frozen=True)
@@ -106,20 +73,21 @@ class Brain:
         sees: bool = True,
         rulebook: Rulebook | None = None,
         watches: bool = True,
+        sensing: Sensing = "true",
     ) -> "Brain":
         """A brain for a robot in a scene it knows, its torques by the numerical controller.
 
         `chooser`: by default the plain rules of `skills.chooser`; `dt`: control period [s]; `method`: how
         foot forces are shared, `"qp"` or the thesis's `"lp"`; `sees`: whether feet know the ground ahead;
         `rulebook`: rules that choose the skills in the place of a chooser; `watches`: whether faults of the
-        robot are noticed.
+        robot are noticed; `sensing`: whether it is told its state or estimates it.
         """
         if chooser is None:
             chooser = DefaultChooser(robot) if rulebook is None else RuleChooser(robot, rulebook)
-        numerical = NumericalController(robot, method)
+        numerical, known = NumericalController(robot, method), KnownGround.of(scene, robot, sees)
         return cls(
             robot,
-            KnownGround.of(scene, robot, sees),
+            known if sensing == "true" else EstimatedState(known, robot, dt),
             Navigator(robot),
             FootholdGuard(chooser, robot) if sees else chooser,
             Coordinator(robot, dt),

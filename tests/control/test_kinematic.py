@@ -15,10 +15,11 @@ from gaitwright.gait.coordinator import Coordinator
 from gaitwright.gait.desired_cycle import DesiredCycle, Manner, desired_cycle
 from gaitwright.gait.leg_cycles.files import load_cycle
 from gaitwright.ground.scene import load_scene
-from gaitwright.locomotion import Brain, Controller, Programmed
+from gaitwright.locomotion import Brain, Controller
 from gaitwright.model.kinematics import feet
 from gaitwright.model.robot import Robot
 from gaitwright.plant.mujoco.simulation import MujocoPlant
+from gaitwright.programmes import Programmed
 from gaitwright.record.recording import Recording
 from gaitwright.session import walk
 from gaitwright.signals import Mission

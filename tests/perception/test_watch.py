@@ -11,7 +11,8 @@ from gaitwright.model.kinematics import angles
 from gaitwright.model.robot import Robot
 from gaitwright.perception.fault_words import GOES_ON, LIES_DOWN, SENTENCES, Fault, fault_of
 from gaitwright.perception.watch_memory import size_of, tables
-from gaitwright.plant.faults import FaultyPlant, Imperfections, breakdown
+from gaitwright.plant.faults import FaultyPlant, breakdown
+from gaitwright.plant.imperfections import Imperfections
 from gaitwright.plant.kinematic import KinematicPlant
 from gaitwright.plant.names import FAULTS, OF_A_JOINT, OF_A_LEG
 from gaitwright.plant.registry import make_plant

@@ -18,7 +18,8 @@ from gaitwright.learning.profile_lessons import taught
 from gaitwright.locomotion import Brain
 from gaitwright.model.perturb import perturbed
 from gaitwright.model.robot import Robot
-from gaitwright.plant.faults import Breakdown, FaultyPlant, Imperfections
+from gaitwright.plant.faults import Breakdown, FaultyPlant
+from gaitwright.plant.imperfections import Imperfections
 from gaitwright.plant.registry import make_plant
 from gaitwright.record.metrics import Report
 from gaitwright.record.recording import INTERRUPTED, Recording

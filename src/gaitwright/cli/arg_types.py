@@ -7,7 +7,7 @@ from pathlib import Path
 
 from gaitwright.errors import WrongUse, short, unknown
 from gaitwright.files import is_there
-from gaitwright.plant.names import FAULTS, INTEGRATORS, PLANTS
+from gaitwright.plant.names import FAULTS, INTEGRATORS, PLANTS, SENSORS
 
 DRIVERS = {
     "numerical": "solves the robot's dynamics 500 times a second",
@@ -17,6 +17,10 @@ DRIVERS = {
     "programmed": "plays the joint angles of the gait back, whatever happens",
 }
 """Who can compute the torques now."""
+SENSINGS = {
+    "true": "the truth, as a simulator has it",
+    "estimated": "what it makes of its encoders, inertial unit and feet",
+}
 LESSONS = {
     "skills": "which skill to use where",
     "profiles": "the torques of each skill, from the numerical controller",
@@ -99,6 +103,25 @@ def driver(text: str) -> str:
     if text not in DRIVERS:
         raise unknown("driver", text, DRIVERS)
     return text
+
+
+def sensing(text: str) -> str:
+    if text not in SENSINGS:
+        raise unknown("sensing", text, SENSINGS)
+    return text
+
+
+def sensors(text: str) -> str:
+    if text not in SENSORS:
+        raise unknown("sensors", text, SENSORS)
+    return text
+
+
+def delay_of(text: str) -> float:
+    value = finite(text)
+    if not 0.0 <= value <= 40.0:
+        raise argparse.ArgumentTypeError(f"{text.strip()!r} is not a delay from 0 to 40 ms")
+    return value
 
 
 def lesson_named(text: str) -> str:

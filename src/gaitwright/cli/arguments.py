@@ -7,8 +7,10 @@ from gaitwright.cli.arg_types import (
     BOOK_TASKS,
     DRIVERS,
     LESSONS,
+    SENSINGS,
     book_task,
     count,
+    delay_of,
     distribution,
     driver,
     duration,
@@ -22,8 +24,10 @@ from gaitwright.cli.arg_types import (
     point,
     positive,
     seed,
+    sensing,
+    sensors,
 )
-from gaitwright.plant.names import FAULTS, INTEGRATORS, JOINTS, PLANTS
+from gaitwright.plant.names import FAULTS, INTEGRATORS, JOINTS, PLANTS, SENSORS
 
 
 def add_demo(parser: argparse.ArgumentParser) -> None:
@@ -112,6 +116,12 @@ def add_run(parser: argparse.ArgumentParser, seconds: float) -> None:
     parser.add_argument("--seed", type=seed, default=0, metavar="N", help=random)
     parser.add_argument("--out", metavar="DIR", help="a new folder for picture, recording and report")
     add_plant(parser)
+    state = f"what the robot knows of its own state: {listed(SENSINGS)} (true)"
+    parser.add_argument("--sensing", type=sensing, default="true", metavar="NAME", help=state)
+    noise = f"how good its sensors are: {listed(SENSORS)} (exact; with --sensing estimated: go2)"
+    parser.add_argument("--sensors", type=sensors, metavar="NAME", help=noise)
+    delay = "readings come so many ms late, up to 40 (0)"
+    parser.add_argument("--late", type=delay_of, default=0.0, metavar="MS", help=delay)
     broken = (
         "let something fail at time T, in seconds; may be given several times, e.g. motor-dead:FL:knee@2 or "
         f"frozen@2. Kinds: {listed(FAULTS)}. LEG is a leg of the robot, JOINT is {', '.join(JOINTS)}; "

@@ -41,7 +41,8 @@ def run(args: Namespace) -> int:
     mission = Mission(points, args.speed, args.driver)
     if not args.learn:
         setting = with_profiles(
-            trips.set_up(robot, scene, chooser_of(robot, args), args.distribution), args.skillbook
+            trips.set_up(robot, scene, chooser_of(robot, args), args.distribution, args.sensing),
+            args.skillbook,
         )
         return trips.run(setting, mission, args)
     if args.skillbook is None:
@@ -50,7 +51,9 @@ def run(args: Namespace) -> int:
         )
     with open_for_learning(args.skillbook) as ledger:  # from the beginning: nobody else teaches it meanwhile
         chooser = RuleChooser(robot, ledger.book.rulebook)
-        setting = with_profiles(trips.set_up(robot, scene, chooser, args.distribution), args.skillbook)
+        setting = with_profiles(
+            trips.set_up(robot, scene, chooser, args.distribution, args.sensing), args.skillbook
+        )
         name = f"{scene.name} (seed {args.seed})"
         return trips.run(setting, mission, args, after=lambda recording: learn(ledger, recording, name))
 

@@ -40,7 +40,7 @@ def run(args: Namespace) -> int:
     cycle = load_cycle(args.cycle) if args.cycle else None
     check_motors(robot, chooser.skill_call, cycle)
     push = Push(*args.push, at=args.seconds / 2) if args.push else None
-    setting = trips.set_up(robot, scene, chooser, args.distribution)
+    setting = trips.set_up(robot, scene, chooser, args.distribution, args.sensing)
     if args.skillbook:
         profiles = profiles_of_skill(robot, args.skillbook, skill.name)
         setting = replace(setting, brain=setting.brain.with_profiles(profiles))

@@ -20,7 +20,9 @@ from gaitwright.locomotion import Brain, Lap
 from gaitwright.model.robot import Robot
 from gaitwright.navigation.navigator import Navigator
 from gaitwright.numerics.compiled import is_warm
+from gaitwright.perception.estimated_state import Sensing
 from gaitwright.plant.faults import FaultyPlant, breakdown
+from gaitwright.plant.imperfections import NOISE, Imperfections
 from gaitwright.plant.registry import make_plant
 from gaitwright.record.recording import INTERRUPTED, Recording, Report
 from gaitwright.session import DT, Push, Session, record, scene_for, walk
@@ -84,11 +86,13 @@ def check_inside(what: str, point: tuple[float, float], scene: Scene) -> None:
         )
 
 
-def set_up(robot: Robot, scene: Scene, chooser: Chooser, distribution: Method) -> Setting:
+def set_up(
+    robot: Robot, scene: Scene, chooser: Chooser, distribution: Method, sensing: Sensing = "true"
+) -> Setting:
     """The brain of a robot in a scene. Raises `WrongUse` where the start is no place to stand."""
     x, y, _ = scene.start
     with working(f"mapping scene {scene.name}", worth_a_line=None):
-        brain = Brain.of(robot, scene, chooser, DT, distribution)
+        brain = Brain.of(robot, scene, chooser, DT, distribution, sensing=sensing)
         on_obstacle = Navigator(robot).view(brain.perception.ground).blocked((x, y))
     if on_obstacle:
         raise WrongUse(
@@ -108,8 +112,18 @@ def check_mechanics(driver: str, args: Namespace) -> None:
         )
     if getattr(args, "fault", None):
         raise WrongUse("plant kinematic has no motors and sensors that could fail; plant mujoco has")
+    if getattr(args, "sensing", "true") != "true" or sensors_of(args) != Imperfections():
+        raise WrongUse("plant kinematic has no sensors: leave --sensing, --sensors and --late out")
     if getattr(args, "push", None):
         raise WrongUse("plant kinematic has no mechanics, so a push moves nothing there; plant mujoco has")
+
+
+def sensors_of(args: Namespace) -> Imperfections:
+    """How good the sensors are: exact for a robot that is told its state, else those of a Go2."""
+    name = getattr(args, "sensors", None)
+    if name is None:
+        name = "go2" if getattr(args, "sensing", "true") == "estimated" else "exact"
+    return replace(NOISE[name], late=round(getattr(args, "late", 0.0) / (1e3 * DT)))
 
 
 # --- the run ---------------------------------------------------------------------------------------
@@ -124,6 +138,7 @@ def run(
     recorded."""
     check_mechanics(mission.driver, args)
     broken = [breakdown(setting.robot, *asked) for asked in getattr(args, "fault", [])]
+    senses = sensors_of(args)
     cold = args.plant == "armstrong" and not is_warm("integrators.advance")
     what = (
         "compiling the plant's kernels (first run only, up to two minutes)" if cold else "building the world"
@@ -149,7 +164,8 @@ def run(
             if checks:
                 checks.add(lap)
 
-        whole = FaultyPlant(plant, setting.robot, broken) if broken else plant
+        is_faulty = broken or senses != Imperfections()
+        whole = FaultyPlant(plant, setting.robot, broken, senses) if is_faulty else plant
         session = Session(setting.brain, whole, mission, args.seconds, args.seed, setting.varied, lowers=True)
         if push:
             session.push(push)

@@ -215,6 +215,20 @@ def load_by_torque(row, n, leg, least):
     return load if load > least else 0.0
 
 
+def seen_by(measured: Measured, sensed: Sensed, before: Row) -> Row:
+    """What the watch goes by: readings as they are, and of an estimated state what the body believes; its
+    attitude repeats where the gyroscope does."""
+    if sensed is measured:
+        return measured.row
+    now, where = sensed.row.copy(), Sensed.layout.slices(len(sensed.load))
+    for name in ("qd", "angular_velocity_b"):
+        now[where[name]] = measured.row[where[name]]
+    spin, attitude = where["angular_velocity_b"], where["orientation_wb"]
+    if (now[spin] == before[spin]).all():
+        now[attitude] = before[attitude]
+    return now
+
+
 class WatchMemory(NamedTuple):
     """What the watch remembers."""
 
@@ -241,7 +255,7 @@ class Watch:
         self, measured: Measured, sensed: Sensed, memory: WatchMemory | None
     ) -> tuple[Sensed, WatchMemory]:
         """What is believed of a reading, and the memory, with all faults that were noticed so far."""
-        now = measured.row
+        now = measured.row if memory is None else seen_by(measured, sensed, memory.seen)
         if memory is None:
             return sensed, WatchMemory(np.zeros(size_of(self.robot.n)), now)
         if ends_trip(memory.faults) or memory.told is None:

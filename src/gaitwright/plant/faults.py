@@ -17,6 +17,7 @@ from gaitwright.errors import WrongUse, unknown
 from gaitwright.ground.scene import Scene
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, quaternion_of, rotation
+from gaitwright.plant.imperfections import Imperfections
 from gaitwright.plant.names import FAULTS, JOINTS, OF_A_JOINT, OF_A_LEG
 from gaitwright.signals import Measured, MotorCommand, Sensed
 from gaitwright.stages import SimulatedPlant
@@ -52,32 +53,6 @@ class Breakdown:
         """Kind, leg and joint as a person calls them."""
         leg = None if self.leg is None else robot.legs[self.leg]
         return self.kind, leg, None if self.joint is None else JOINTS[self.joint]
-
-
-@dataclass(frozen=True, slots=True)
-class Imperfections:
-    """How far readings are from the truth all the time; the noise is drawn evenly from ± its bound."""
-
-    angle: float = 0.0
-    """Noise of joint angles [rad]."""
-    rate: float = 0.0
-    """Of joint rates [rad/s]."""
-    velocity: float = 0.0
-    """Of the base [m/s]."""
-    spin: float = 0.0
-    """Of its angular velocity [rad/s]."""
-    attitude: float = 0.0
-    """Of the direction of gravity in the base [rad]."""
-    angle_bias: float = 0.0
-    """Every joint reads this much too much or too little, which of the two is drawn [rad]."""
-    attitude_bias: float = 0.0
-    """The base reads as tilted by this much, about a horizontal axis that is drawn [rad]."""
-    late: int = 0
-    """Ticks by which readings come late."""
-
-
-LEGGED_GYM = Imperfections(0.01, 1.5, 0.1, 0.2, 0.05)
-"""The noise that policies of legged_gym are trained with."""
 
 
 def breakdown(robot: Robot, kind: str, leg: str = "", joint: str = "", at: float = 0.0) -> Breakdown:
@@ -126,6 +101,10 @@ class FaultyPlant:
         self.angle_bias = self.imperfections.angle_bias * signs
         towards = self.random.uniform(0.0, 2.0 * np.pi)
         self.tilt = self.imperfections.attitude_bias * np.array([np.cos(towards), np.sin(towards)])
+        self.spin_bias, self.force_bias = (
+            bias * self.random.choice([-1.0, 1.0], size=3)
+            for bias in (self.imperfections.spin_bias, self.imperfections.force_bias)
+        )
         self.old: deque[Measured] = deque(maxlen=1 + max(LATE, self.imperfections.late))
         self.late, self.kept = self.imperfections.late, {}
         self.differs: dict[Breakdown, int] = {}
@@ -217,14 +196,29 @@ class FaultyPlant:
         if off == Imperfections(late=off.late):
             return true
         tilt = self.tilt + off.attitude * draw(-1.0, 1.0, 2)
-        return changed(
+        spin = self.spin_bias + off.spin * draw(-1.0, 1.0, 3)
+        told = changed(
             true,
             q=true.q + self.angle_bias + off.angle * draw(-1.0, 1.0, true.q.shape),
             qd=true.qd + off.rate * draw(-1.0, 1.0, true.q.shape),
             velocity_w=true.velocity_w + off.velocity * draw(-1.0, 1.0, 3),
-            angular_velocity_b=true.angular_velocity_b + off.spin * draw(-1.0, 1.0, 3),
+            angular_velocity_b=true.angular_velocity_b + spin,
             orientation_wb=tilted(true.orientation_wb, tilt),
         )
+        if off.load:
+            share = off.load * self.robot.total_mass * GRAVITY / self.robot.n
+            load = np.where(true.load > 0.0, true.load + share * draw(-1.0, 1.0, true.load.shape), 0.0)
+            told = changed(told, load=np.maximum(load, 0.0))
+        return self.felt(told, true)
+
+    def felt(self, told: Measured, true: Measured) -> Measured:
+        """A reading with what the accelerometer makes of the truth."""
+        off = self.imperfections
+        if not (off.force or off.force_bias):
+            return told
+        noise = self.force_bias + off.force * self.random.uniform(-1.0, 1.0, 3)
+        x, y, z = (float(part) for part in true.specific_force_b + noise)
+        return Measured.of_row(told.row, time=told.time, specific_force_b=(x, y, z))
 
     def misread(self, told: Measured, one: Breakdown) -> Measured:
         """A reading with one breakdown."""

@@ -30,6 +30,13 @@ FAULTS = {
 }
 """What can be made to fail on a simulated robot: kind → what it is."""
 
+SENSORS = {
+    "exact": "no noise at all",
+    "go2": "as good as those of a Go2",
+    "legged-gym": "as noisy as policies of legged_gym are trained with",
+}
+"""How good the sensors of a simulated robot are: name → what that means."""
+
 OF_A_JOINT = ("motor-dead", "motor-stuck", "encoder-frozen", "encoder-offset")
 """Kinds that name a leg and a joint."""
 OF_A_LEG = ("leg-dead", "foot-off", "foot-on")

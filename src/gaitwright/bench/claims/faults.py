@@ -15,7 +15,8 @@ from gaitwright.bench.context import Context
 from gaitwright.bench.measurement import Figure, at_most, count
 from gaitwright.bench.trial import Outcome, Trial, robot_named
 from gaitwright.bench.witness import Change
-from gaitwright.plant.faults import LEGGED_GYM, Breakdown, Imperfections
+from gaitwright.plant.faults import Breakdown
+from gaitwright.plant.imperfections import LEGGED_GYM, Imperfections
 from gaitwright.plant.names import FAULTS, JOINTS, OF_A_JOINT, OF_A_LEG
 from gaitwright.session import Push
 from gaitwright.skills.library import skill_names
