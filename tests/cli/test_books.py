@@ -2,6 +2,7 @@
 told."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,7 @@ from gaitwright.errors import BadFile
 from gaitwright.knowledge.json_form import dumps
 from gaitwright.learning.notes import pupil_of, relearned
 from gaitwright.skillbook import Skillbook, content_hash, export_text, import_text, open_for_learning
+from skillbook.profiles import some_profiles
 from skillbook.schooling import begun, lesson, taught_skillbook, tell
 
 GRASS = {"slope": 1.0, "possible": 0.5, "sway": 0.3}
@@ -57,6 +59,15 @@ def test_a_merge_reports_figures(capsys):
     assert report["new_rules"] == ["climb"] and report["hash"] == content_hash(Skillbook.load("both.skills"))
     (conflict,) = report["conflicts"]
     assert (conflict["ours"], conflict["theirs"]) == (["mine"], ["yours"])
+
+
+def test_a_merge_tells_of_the_profiles_that_came_along(books, capsys):
+    replace(books[1], profiles=some_profiles()).save("b.skills")
+    assert main([*MERGE, "b.skills", "--out", "both.skills"]) == 0
+    assert "taken from theirs 6 steps, 3 torque profiles" in " ".join(capsys.readouterr().out.split())
+    assert Skillbook.load("both.skills").profiles == some_profiles()
+    assert main(["books", "merge", "both.skills", "b.skills", "--out", "more.skills", "--json", "-"]) == 0
+    assert json.loads(capsys.readouterr().out)["new_profiles"] == 0
 
 
 def test_a_merge_with_nothing_new_says_so(capsys):

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from gaitwright.control.forces import FORCE_WEIGHTS, MOMENT_WEIGHTS
 from gaitwright.control.handover import LASTS
 from gaitwright.control.learned.contact_maps import contact_maps
-from gaitwright.control.learned.controller import Cells, LearnedController, blended
+from gaitwright.control.learned.controller import LearnedController
 from gaitwright.control.learned.law import TANGENT, note
 from gaitwright.control.learned.profile import BINS, ROW, Profile, mean_cycle, row_of
 from gaitwright.control.numerical import NumericalController
@@ -154,18 +154,6 @@ def test_the_mean_cycle_is_that_of_what_was_seen_and_gaps_are_bridged():
 
 def gait(name: str = "trot") -> Gait:
     return Gait(name, 0.4, 0.6, (0.0, 0.5, 0.5, 0.0))
-
-
-def flat_profile(speed: float, value: float) -> Profile:
-    return Profile(gait(), (speed, 0.0, 0.0), np.full((BINS, ROW.size(4)), value))
-
-
-@given(st.floats(-1.0, 3.0), st.floats(0.0, 1.0))
-def test_between_two_cells_it_is_straight_and_beyond_them_the_nearest(speed, phase):
-    cells = Cells.of([flat_profile(1.0, 5.0), flat_profile(0.5, 1.0), flat_profile(1.5, 6.0)])
-    assert cells.axis == 0 and cells.places.tolist() == [0.5, 1.0, 1.5]
-    row = blended(cells.places, cells.tables, speed, phase)
-    np.testing.assert_allclose(row, np.interp(speed, [0.5, 1.0, 1.5], [1.0, 5.0, 6.0]))
 
 
 def test_a_table_goes_round():

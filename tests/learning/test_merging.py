@@ -17,6 +17,7 @@ from gaitwright.learning.older_books import told_by
 from gaitwright.skillbook import Skillbook, export_text, import_text, open_for_learning
 from gaitwright.skillbook.history import all_told
 from knowledge.random_books import random_book, random_forest
+from skillbook.profiles import profile_notes
 from skillbook.schooling import (
     begun,
     forget,
@@ -205,6 +206,30 @@ def test_books_of_other_robots_are_joined_and_of_other_beginnings_too():
     merged = merge(ours, theirs)
     sound(merged)
     assert merged.book.robot == "go2" and len(all_told(merged.book.steps)) == 16
+
+
+@pytest.mark.parametrize("went", ["nowhere", "ahead", "apart", "against each other"])
+def test_profiles_are_ours_and_theirs_of_the_skills_that_ours_has_none_of(went):
+    base = begun()
+    mine, back = profile_notes("trot", first=1.0), profile_notes("walk-backward")
+    run, walk, edited = profile_notes("run"), profile_notes("walk"), profile_notes("walk", edited="softer")
+    ours = replace(base.forked("a"), profiles=(mine, back))
+    theirs = replace(base.forked("b"), profiles=(run, profile_notes("trot", first=2.0), walk, edited))
+    if went != "nowhere":
+        theirs = more(theirs, lesson("yours", HERE, "trot"))
+    if went in ("apart", "against each other"):
+        ours = more(ours, lesson("mine", HERE | {"sway": 0.2 if went == "apart" else 0.1}, "walk"))
+    merged = merge(ours, theirs).book
+    assert merged.profiles == (run, mine, walk, edited, back)
+    assert merged.ancestors[-1].name == "b" and import_text(export_text(merged)) == merged
+    assert merge(merged, theirs).book == merged, "nothing is new a second time"
+    assert merge(ours, replace(theirs, profiles=())).book.profiles == ours.profiles
+
+
+def test_profiles_of_another_robot_stay_where_they_are():
+    base = begun()
+    ours, theirs = base.forked("a"), replace(base.forked("b"), robot="hexapod", profiles=(profile_notes(),))
+    assert merge(ours, theirs) == Merged(ours)
 
 
 def test_the_base_is_checked():

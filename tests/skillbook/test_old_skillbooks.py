@@ -10,6 +10,7 @@ from contextlib import closing
 from pathlib import Path
 
 import pytest
+from profiles import profile_notes, some_profiles
 from schooling import random_lesson, tell_in, written_by
 
 from gaitwright.errors import BadFile
@@ -57,6 +58,18 @@ def test_the_pupil_of_a_book_of_the_second_version_goes_on(tmp_path):
     assert relearned(book).lessons == 14, "it can be heard again, and may be learned otherwise now"
 
 
+def test_the_profiles_of_a_book_of_the_third_version_are_there(tmp_path):
+    path = written_by(3, tmp_path / "third.skills")
+    book = Skillbook.load(path)
+    assert book == import_text((HERE / "version_3.txt").read_text(encoding="utf-8"))
+    assert (book.name, len(book.rulebook.rules), book.rulebook.lessons) == ("the third", 5, 7)
+    assert book.profiles == some_profiles()
+    assert pupil_of(book).rulebook().rules == book.rulebook.rules
+    with open_for_learning(path) as ledger:
+        ledger.keep_profiles((*book.profiles, profile_notes("walk")))
+    assert len(Skillbook.load(path).profiles) == 4
+
+
 def in_old_trees(rulebook, book):
     """What the rules say in the trees that there were when the book was written."""
     trees = book.rulebook.forest.names
@@ -66,9 +79,16 @@ def in_old_trees(rulebook, book):
     ]
 
 
+def test_older_books_can_be_given_profiles(first):
+    book = Skillbook.load(first)
+    with open_for_learning(first) as ledger:
+        ledger.keep_profiles(some_profiles())
+    assert book.profiles == () and Skillbook.load(first).profiles == some_profiles()
+
+
 def test_a_newer_version_reads_and_teaches_older_books(first, rng, monkeypatch):
     book = Skillbook.load(first)
-    more = "CREATE TABLE profiles (name TEXT NOT NULL PRIMARY KEY, content TEXT NOT NULL) STRICT"
+    more = "CREATE TABLE maps (name TEXT NOT NULL PRIMARY KEY, content TEXT NOT NULL) STRICT"
     with monkeypatch.context() as newer:
         newer.setattr(schema, "MIGRATIONS", (*schema.MIGRATIONS, more))
         newer.setattr("gaitwright.skillbook.store.MIGRATIONS", schema.MIGRATIONS)
@@ -79,7 +99,7 @@ def test_a_newer_version_reads_and_teaches_older_books(first, rng, monkeypatch):
             tell_in(ledger, SkillPupil(), random_lesson(rng, "a new lesson"))
             taught = ledger.book
         with closing(sqlite3.connect(first)) as db:
-            assert db.execute("SELECT count(*) FROM profiles").fetchone() == (0,)
+            assert db.execute("SELECT count(*) FROM maps").fetchone() == (0,)
         assert Skillbook.load(first) == taught
-    with pytest.raises(BadFile, match="book version 3, this one reads up to 2"):
+    with pytest.raises(BadFile, match="book version 4, this one reads up to 3"):
         Skillbook.load(first)

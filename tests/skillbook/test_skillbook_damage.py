@@ -79,8 +79,8 @@ def test_another_programs_file_is_refused(tmp_path):
 
 
 def test_a_newer_book_is_refused(path):
-    alter(path, "PRAGMA user_version=3")
-    refused(path, "written by a newer Gaitwright: book version 3, this one reads up to 2")
+    alter(path, "PRAGMA user_version=4")
+    refused(path, "written by a newer Gaitwright: book version 4, this one reads up to 3")
     alter(path, "PRAGMA user_version=0")
     refused(path, "which never was")
     alter(path, "PRAGMA user_version=-5")
@@ -228,7 +228,7 @@ def test_a_book_with_flipped_bytes_is_refused_or_the_same(path, book):
     assert unlike > 50
 
 
-@pytest.mark.parametrize("count", ["steps", "rules", "wishes", "trees", "ancestors"])
+@pytest.mark.parametrize("count", ["steps", "rules", "wishes", "trees", "ancestors", "profiles"])
 def test_a_count_of_a_book_takes_no_memory_before_it_is_believed(path, count):
     restate(path, "book", (0,), {count: 900_000})
     told, peak = told_within(path)

@@ -18,6 +18,7 @@ from gaitwright.learning.profile_lessons import taught
 from gaitwright.locomotion import Brain
 from gaitwright.model.perturb import perturbed
 from gaitwright.model.robot import Robot
+from gaitwright.perception.estimated_state import Sensing
 from gaitwright.plant.faults import Breakdown, FaultyPlant
 from gaitwright.plant.imperfections import Imperfections
 from gaitwright.plant.registry import make_plant
@@ -78,6 +79,8 @@ class Trial:
     """How the robot differs from what its brain knows of it."""
     lowers: bool = False
     """Whether it is let down at the end."""
+    sensing: Sensing = "true"
+    """Whether it is told its state, or estimates it."""
 
     @property
     def is_imperfect(self) -> bool:
@@ -183,7 +186,7 @@ def brain_for(trial: Trial, robot: Robot, scene: Scene) -> Brain:
         chooser = fixed_skill(robot, trial.skill, trial.speed, trial.lateral, trial.turn, trial.driver)
         if trial.then is not None:
             chooser = InTurn(chooser.skill_call, second_call(trial, robot), trial.then.at)
-    brain = Brain.of(robot, scene, chooser, DT, trial.method)
+    brain = Brain.of(robot, scene, chooser, DT, trial.method, sensing=trial.sensing)
     if "learned" not in (trial.driver, trial.then and trial.then.driver):
         return brain
     skills = {trial.skill, trial.then.skill} if trial.then else {trial.skill}

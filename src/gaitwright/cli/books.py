@@ -69,7 +69,8 @@ def tell_merge(ours: Skillbook, theirs: Skillbook, merged: Merged, args: Namespa
     known = {rule.name for rule in ours.rulebook.rules}
     rules = [rule.name for rule in book.rulebook.rules]
     new = [name for name in rules if name not in known]
-    steps = len(book.steps) - len(ours.steps)
+    steps, profiles = len(book.steps) - len(ours.steps), len(book.profiles) - len(ours.profiles)
+    taken = [counted(n, what) for n, what in ((steps, "step"), (profiles, "torque profile")) if n]
     figures = {
         "book": args.out,
         "ours": mine,
@@ -77,6 +78,7 @@ def tell_merge(ours: Skillbook, theirs: Skillbook, merged: Merged, args: Namespa
         "rules": rules,
         "new_rules": new,
         "new_steps": steps,
+        "new_profiles": profiles,
         "conflicts": [asdict(conflict) for conflict in merged.conflicts],
         "hash": content_hash(book),
     }
@@ -84,10 +86,7 @@ def tell_merge(ours: Skillbook, theirs: Skillbook, merged: Merged, args: Namespa
     rows = [
         ("ours", f"{mine}, {introduced(ours)}"),
         ("theirs", f"{other}, {introduced(theirs)}"),
-        (
-            "taken from theirs",
-            counted(steps, "step") if steps else "nothing: ours has all that it was taught",
-        ),
+        ("taken from theirs", ", ".join(taken) or "nothing: ours has all that it was taught"),
         ("new rules", ", ".join(new) or "none"),
         ("conflicts", str(len(merged.conflicts)) if merged.conflicts else "none"),
     ]

@@ -1,25 +1,78 @@
-"""`gaitwright demo`: the main job from end to end, without arguments."""
+"""`gaitwright demo`: the whole story without arguments. The numerical controller crosses a field, rules and
+torque profiles are learned, and then the learned controller crosses another field by them."""
 
 from argparse import Namespace
+from dataclasses import replace
+from pathlib import Path
 
 from gaitwright.cli import trips
+from gaitwright.cli.console import remark
+from gaitwright.cli.driving import profiles_for
 from gaitwright.cli.output import numbered_folder
+from gaitwright.cli.teach import taught
+from gaitwright.cli.teach_profiles import learned
+from gaitwright.control.takeover import HYBRID, NUMERICAL
+from gaitwright.learning.teacher import teacher_for
+from gaitwright.model.robot import Robot
 from gaitwright.signals import Mission
+from gaitwright.skillbook.book import Skillbook
+from gaitwright.skillbook.writer import open_for_learning
 from gaitwright.skills.chooser import DefaultChooser
+from gaitwright.skills.rule_chooser import RuleChooser
+from gaitwright.skills.situation import FOREST
 
 GOAL = (6.0, 0.0)
 SECONDS = 60.0
+SCHOOL = 20
+"""Trips of the school between the two crossings."""
+SKILLS = ("stand", "stop", "walk", "trot", "turn-in-place", "turn-left", "turn-right")
+"""Skills that a field of blocks asks for: their profiles are taken."""
+FIRST = "1. The numerical controller crosses a field of blocks: it solves dynamics 500 times a second."
+SCHOOLING = (
+    "2. The learning controller goes to school: rules which skill to use where, and the torques of each."
+)
+SECOND = "3. The learned controller crosses another field, by its rules and profiles where it knows the case."
 
 
 def run(args: Namespace) -> int:
     trips.check_outputs(args)
     robot = trips.find_robot("go2")
-    setting = trips.set_up(robot, trips.find_scene("blocks", args.seed, robot), DefaultChooser(robot), "qp")
-    args.seconds = SECONDS
     folder = None if args.out else numbered_folder("runs/demo")
-    args.out = args.out or str(folder)
+    args.seconds, args.out = SECONDS, args.out or str(folder)
     try:
-        return trips.run(setting, Mission((GOAL,)), args)
+        remark(FIRST)
+        before = Namespace(
+            **vars(args) | {"out": str(Path(args.out) / "first"), "json": None, "aside": args.json == "-"}
+        )
+        setting = trips.set_up(robot, field(robot, args.seed), DefaultChooser(robot), "qp")
+        code = trips.run(setting, Mission((GOAL,), driver=NUMERICAL), before)
+        if code == 130:
+            return code
+        remark(SCHOOLING)
+        book = learn(robot, Path(args.out) / "go2.skills", args)
+        remark(SECOND)
+        return trips.run(by_book(robot, book, args), Mission((GOAL,), driver=HYBRID), args)
     finally:
         if folder and not any(folder.iterdir()):
             folder.rmdir()
+
+
+def field(robot: Robot, seed: int) -> trips.Scene:
+    """A field of blocks."""
+    return trips.find_scene("blocks", seed, robot)
+
+
+def learn(robot: Robot, path: Path, args: Namespace) -> Path:
+    """A skillbook with rules from a school, and with the profiles of the skills that the field asks for."""
+    Skillbook.new(FOREST, robot.name, "demo", args.seed).save(path)
+    with open_for_learning(path) as ledger:
+        taught(robot, teacher_for(robot), ledger, Namespace(trips=SCHOOL, seed=args.seed))
+        learned(robot, ledger, SKILLS, args.seed)
+    return path
+
+
+def by_book(robot: Robot, path: Path, args: Namespace) -> trips.Setting:
+    """The robot in another field, with what it has learned."""
+    chooser = RuleChooser(robot, Skillbook.load(path).rulebook)
+    setting = trips.set_up(robot, field(robot, args.seed + 1), chooser, "qp")
+    return replace(setting, brain=setting.brain.with_profiles(profiles_for(robot, str(path))))

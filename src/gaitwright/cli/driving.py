@@ -1,6 +1,6 @@
 """The torque profiles of a book for the drivers that play them, and a sentence for what is not played."""
 
-from gaitwright.cli.book_files import is_skillbook
+from gaitwright.cli.book_files import is_skillbook, skillbook_of
 from gaitwright.cli.console import remark, working
 from gaitwright.control.learned.profile import Profile
 from gaitwright.errors import WrongUse, short
@@ -18,13 +18,23 @@ def profiles_for(robot: Robot, path: str) -> dict[str, list[Profile]]:
     return found.profiles
 
 
+def profiles_to_play(robot: Robot, path: str) -> dict[str, list[Profile]]:
+    """The same for a driver that plays nothing else. Raises `BadFile` for a file with rules alone, and
+    `WrongUse` for a book without any."""
+    found = profiles_for(robot, path)
+    if not found:
+        skillbook_of(path)
+        raise WrongUse(f"{short(path)} has no profiles to play; {again(robot, path)}")
+    return found
+
+
 def profiles_of_skill(robot: Robot, path: str, skill: str) -> dict[str, list[Profile]]:
     """The profiles of one skill. Raises `WrongUse` where there are none, or they are out of date."""
     found = looked_up(robot, path, skill)
     if skill in found.outdated:
         raise WrongUse(f"{found.outdated[skill]}; {again(robot, path)}")
     if skill not in found.profiles:
-        known = ", ".join(sorted({notes.skill for notes in Skillbook.load(path).profiles})) or "none"
+        known = ", ".join(sorted({notes.skill for notes in skillbook_of(path).profiles})) or "none"
         raise WrongUse(f"{short(path)} has no profiles of {skill}; it has: {known}; {again(robot, path)}")
     return found.profiles
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 from gaitwright.cli import trips
 from gaitwright.cli.book_files import rulebook_of
 from gaitwright.cli.console import remark
-from gaitwright.cli.driving import profiles_for
+from gaitwright.cli.driving import profiles_for, profiles_to_play
 from gaitwright.control.takeover import HYBRID, LEARNED
 from gaitwright.errors import WrongUse
 from gaitwright.learning.live import LiveLessons
@@ -40,10 +40,8 @@ def run(args: Namespace) -> int:
         DefaultChooser(robot).gait_for(args.speed)  # refuses a speed beyond the robot's reach
     mission = Mission(points, args.speed, args.driver)
     if not args.learn:
-        setting = with_profiles(
-            trips.set_up(robot, scene, chooser_of(robot, args), args.distribution, args.sensing),
-            args.skillbook,
-        )
+        plain = trips.set_up(robot, scene, chooser_of(robot, args), args.distribution, args.sensing)
+        setting = with_profiles(plain, args)
         return trips.run(setting, mission, args)
     if args.skillbook is None:
         raise WrongUse(
@@ -51,16 +49,17 @@ def run(args: Namespace) -> int:
         )
     with open_for_learning(args.skillbook) as ledger:  # from the beginning: nobody else teaches it meanwhile
         chooser = RuleChooser(robot, ledger.book.rulebook)
-        setting = with_profiles(
-            trips.set_up(robot, scene, chooser, args.distribution, args.sensing), args.skillbook
-        )
+        plain = trips.set_up(robot, scene, chooser, args.distribution, args.sensing)
+        setting = with_profiles(plain, args)
         name = f"{scene.name} (seed {args.seed})"
         return trips.run(setting, mission, args, after=lambda recording: learn(ledger, recording, name))
 
 
-def with_profiles(setting: trips.Setting, path: str | None) -> trips.Setting:
-    """The same with a learned controller that plays the profiles of a book, where it has some."""
-    profiles = profiles_for(setting.robot, path) if path else {}
+def with_profiles(setting: trips.Setting, args: Namespace) -> trips.Setting:
+    """The same with a learned controller that plays the profiles of a book, where it has some. Raises
+    `WrongUse` for driver learned where it has none."""
+    find = profiles_to_play if args.driver == LEARNED else profiles_for
+    profiles = find(setting.robot, args.skillbook) if args.skillbook else {}
     return replace(setting, brain=setting.brain.with_profiles(profiles)) if profiles else setting
 
 

@@ -76,9 +76,16 @@ def teach(robot: Robot, teacher: ScriptedTeacher, ledger: Ledger, args: Namespac
         figures |= go_to_school(robot, teacher, ledger, args)
     if args.lesson != "skills":
         figures["torque_profiles"] = import_module("gaitwright.cli.teach_profiles").run(robot, ledger, args)
-        driven = f"--robot {args.robot} --skillbook {args.out}"
-        remark(f"next: gaitwright skill --driver learned {driven} --skill trot")
+        suggest(ledger.book, args)
     write_json(args.json, json.dumps(figures, indent=2, ensure_ascii=False))
+
+
+def suggest(book: Skillbook, args: Namespace) -> None:
+    """Says how profiles are played, where there are any."""
+    skills = sorted({notes.skill for notes in book.profiles}, key=lambda skill: (skill != "trot", skill))
+    if skills:
+        driven = f"--robot {args.robot} --skillbook {args.out}"
+        remark(f"next: gaitwright skill --driver learned {driven} --skill {skills[0]}")
 
 
 def check_live(args: Namespace) -> None:
@@ -123,7 +130,8 @@ def begun(robot: Robot, name: str, args: Namespace) -> Skillbook:
         return Skillbook.new(FOREST, robot.name, name, args.seed)
     old = skillbook_of(args.start)
     check_teachable(old, args.start)  # before there is a new one
-    return replace(old.forked(name), robot=robot.name, seed=args.seed)
+    profiles = old.profiles if old.robot == robot.name else ()
+    return replace(old.forked(name), robot=robot.name, seed=args.seed, profiles=profiles)
 
 
 def check_teachable(book: Skillbook, path: Path | str) -> None:

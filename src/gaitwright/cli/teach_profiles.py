@@ -1,6 +1,7 @@
 """`gaitwright teach --lesson profiles`: the numerical controller drives every skill, and that is noted."""
 
 from argparse import Namespace
+from collections.abc import Iterator, Sequence
 from time import perf_counter
 from typing import Any
 
@@ -25,17 +26,7 @@ def run(robot: Robot, ledger: Ledger, args: Namespace) -> dict[str, Any]:
     wanted = [name for name in skill_names(robot.n) if name not in known.profiles]
     if known.profiles:
         remark(f"{len(known.profiles)} skills are in {source} already: {', '.join(known.profiles)}")
-    found = []
-    if wanted:
-        with working("loading kernels, or compiling them", worth_a_line=None):
-            learn(Task(robot, wanted[0], args.seed))  # before several processes do so side by side
-    with Workers() as workers:
-        for learned in workers.as_done(learn, [Task(robot, name, args.seed) for name in wanted]):
-            keep(ledger, learned)
-            found.append(learned)
-            remark(
-                f"profiles: {len(found)} of {len(wanted)}, {said(learned)} ({perf_counter() - began:.0f} s)"
-            )
+    found = learned(robot, ledger, wanted, args.seed)
     found.sort(key=lambda learned: wanted.index(learned.skill))
     if args.json != "-" and found:
         show_table(HEAD, [row_of(learned) for learned in found if learned.found], right=HEAD[1:])
@@ -44,6 +35,28 @@ def run(robot: Robot, ledger: Ledger, args: Namespace) -> dict[str, Any]:
         "profiles": len(ledger.book.profiles),
         "seconds": perf_counter() - began,
     }
+
+
+def learned(robot: Robot, ledger: Ledger, wanted: Sequence[str], seed: int) -> list[Learned]:
+    """Skills learned side by side, each in the book as soon as it is."""
+    began, found = perf_counter(), []
+    with Workers() as workers:
+        for one in each_learned(workers, [Task(robot, name, seed) for name in wanted]):
+            keep(ledger, one)
+            found.append(one)
+            took = f"({perf_counter() - began:.0f} s)"
+            remark(f"profiles: {len(found)} of {len(wanted)}, {said(one)} {took}")
+    return found
+
+
+def each_learned(workers: Workers, tasks: list[Task]) -> Iterator[Learned]:
+    """What comes of each task, as soon as it is there; of the first one before several processes begin, for
+    it compiles the kernels of all."""
+    if tasks:
+        with working("loading kernels, or compiling them", worth_a_line=None):
+            first = learn(tasks[0])
+        yield first
+    yield from workers.as_done(learn, tasks[1:])
 
 
 def keep(ledger: Ledger, learned: Learned) -> None:

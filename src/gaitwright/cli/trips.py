@@ -192,7 +192,7 @@ def finish(
 ) -> int:
     """Writes and prints the report, leaves the files that were asked for; returns the exit code."""
     report = recording.report()
-    aside = args.json == "-"
+    aside = args.json == "-" or getattr(args, "aside", False)
     text, checked = as_json(report, checks), checks.table() if checks else []
     kept = keep(recording, text, Path(args.out)) if args.out else []
     write_json(args.json, text)

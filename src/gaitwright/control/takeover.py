@@ -54,7 +54,9 @@ class Takeover:
         if was.driver == LEARNED and played is not None:
             foreign += self.dt / gait.period * (1.0 - float(played[-1]) - foreign)
         is_known = asked.firm and self.learned.covers(gait, target)
-        since = was.known_since if is_known else time + TAKES_OVER
+        since = was.known_since
+        if not is_known or was.asked is None:
+            since = max(since, time + TAKES_OVER)
         if foreign > FOREIGN:
             since, is_known, foreign = time + STAYS_BACK, False, 0.0
         driver = LEARNED if is_known and time >= since - 1e-9 else NUMERICAL

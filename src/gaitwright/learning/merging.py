@@ -19,6 +19,7 @@ from gaitwright.skillbook.history import (
     names_told,
     that_count,
 )
+from gaitwright.skillbook.profile_notes import ProfileNotes, name_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,9 +46,20 @@ def merge(ours: Skillbook, theirs: Skillbook, base: Skillbook | None = None) -> 
 
     Where both were told different things at the very same moment ours stays. Whatever either was told since
     then and does by itself, the joined book does too, or a conflict says what it does instead. `base` is the
-    book that both come from; it is found without being named, and checked where it is. Raises `WrongUse`
-    where it is no such book, or for a book whose rules rest on no lessons that can be told.
+    book that both come from; it is found without being named, and checked where it is. Of each skill the
+    torque profiles are ours, or theirs where ours has none. Raises `WrongUse` where `base` is no such book,
+    or for a book whose rules rest on no lessons that can be told.
     """
+    merged = told_both(ours, theirs, base)
+    profiles = profiles_of_both(ours, theirs)
+    if profiles == ours.profiles:
+        return merged
+    ancestors = with_ancestor(merged.book.ancestors, theirs)
+    return replace(merged, book=replace(merged.book, profiles=profiles, ancestors=ancestors))
+
+
+def told_both(ours: Skillbook, theirs: Skillbook, base: Skillbook | None) -> Merged:
+    """Our book with theirs, but for its profiles."""
     both = shared_steps(ours, theirs)
     if base is not None and shared_steps(base, ours) + shared_steps(base, theirs) < 2 * len(base.steps):
         raise WrongUse(f"the books do not both go on from {base.name!r}")
@@ -202,6 +214,15 @@ def shared_steps(a: Skillbook, b: Skillbook) -> int:
             break
         count += 1
     return count
+
+
+def profiles_of_both(ours: Skillbook, theirs: Skillbook) -> tuple[ProfileNotes, ...]:
+    """Our torque profiles, and theirs of the skills that ours has none of, where both are of one robot."""
+    if ours.robot != theirs.robot:
+        return ours.profiles
+    known = {profile.skill for profile in ours.profiles}
+    others = [profile for profile in theirs.profiles if profile.skill not in known]
+    return tuple(sorted((*ours.profiles, *others), key=name_of))
 
 
 def with_ancestor(ancestors: tuple[Ancestor, ...], book: Skillbook) -> tuple[Ancestor, ...]:

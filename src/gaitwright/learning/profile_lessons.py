@@ -19,6 +19,7 @@ from gaitwright.plant.registry import make_plant
 from gaitwright.session import DT, Session
 from gaitwright.signals import Mission, SkillCall
 from gaitwright.skills.chooser import HeldSkill, fixed_skill
+from gaitwright.skills.library import find_skill, gait_of, skill_names
 
 SETTLING, SHOWN, STARTS = 3.0, 3.0, 2
 """Time until a gait is steady, time that is noted [s], and how many starts."""
@@ -37,10 +38,25 @@ def taught(
     at those that it is meant for. Raises `WrongUse` where the robot does not keep it up."""
     chooser = fixed_skill(robot, skill, speed, 0.0, turn, "numerical")
     call = chooser.skill_call
-    starts = [cycle_of(robot, chooser, seed + k) for k in range(STARTS)]
+    starts = cycles_of(robot, chooser, seed)
     table = np.mean(starts, axis=0).astype(np.float32).astype(np.float64)  # as a book holds it
     repeat = torque_error(starts[1], starts[0], robot.n)
     return Profile(call.gait, (*call.velocity, call.turn), table, repeat, answers_of(robot, call))
+
+
+def cycles_of(robot: Robot, chooser: HeldSkill, seed: int) -> list[Table]:
+    """The mean cycles of a skill from `STARTS` starts; so many may fall before. Raises `WrongUse`."""
+    cycles, fell = [], 0
+    for start in range(seed, seed + 2 * STARTS):
+        try:
+            cycles.append(cycle_of(robot, chooser, start))
+        except WrongUse:
+            fell += 1
+            if fell > STARTS or (fell == STARTS and not cycles):
+                raise
+        if len(cycles) == STARTS:
+            break
+    return cycles
 
 
 def cycle_of(robot: Robot, chooser: HeldSkill, seed: int) -> Table:
@@ -98,7 +114,10 @@ def answers_of(robot: Robot, call: SkillCall) -> Float[np.ndarray, "probes torqu
 
 def changed_by(robot: Robot, profile: Profile) -> float:
     """By what share the teacher's answers of today differ from those when the profile was taught."""
-    call = SkillCall(profile.skill, profile.gait, profile.command[:2], profile.command[2])
+    if profile.skill not in skill_names(robot.n):
+        return 1.0
+    gait = gait_of(find_skill(profile.skill, robot), robot)
+    call = SkillCall(profile.skill, gait, profile.command[:2], profile.command[2])
     then, now = profile.answers, answers_of(robot, call)
     if then.shape != now.shape:
         return 1.0

@@ -8,20 +8,21 @@ from pathlib import Path
 from gaitwright.errors import BadFile
 from gaitwright.knowledge.forest import Forest
 from gaitwright.knowledge.rules import Rulebook
-from gaitwright.skillbook import profile_notes, store, text
+from gaitwright.skillbook import store, text
 from gaitwright.skillbook.entries import (
     About,
     File,
     ancestor_entry,
     ancestors_of,
     checked,
+    profile_entries,
     rulebook_entry,
     rulebook_of,
     step_entry,
     steps_of,
 )
 from gaitwright.skillbook.history import Ancestor, Step, all_told, forgotten
-from gaitwright.skillbook.profile_notes import ProfileNotes
+from gaitwright.skillbook.profile_notes import ProfileNotes, fault_in
 from gaitwright.skillbook.pupil_notes import PupilNotes, actions_in, is_sound
 
 
@@ -86,7 +87,7 @@ def entry_of(book: Skillbook) -> File:
     rulebook = rulebook_entry(book.rulebook)
     steps = tuple(step_entry(step) for step in book.steps)
     ancestors = tuple(ancestor_entry(a) for a in book.ancestors)
-    return File(about_of(book), rulebook, steps, ancestors, book.pupil, book.profiles)
+    return File(about_of(book), rulebook, steps, ancestors, book.pupil, profile_entries(book.profiles))
 
 
 def about_of(book: Skillbook) -> About:
@@ -124,11 +125,9 @@ def check_notes(notes: PupilNotes | None, steps: tuple[Step, ...], source: str) 
 
 def check_profiles(profiles: tuple[ProfileNotes, ...], source: str) -> None:
     """Raises `BadFile` where one of a book's profiles is damaged, or stands in it twice."""
-    for profile in profiles:
-        if not profile_notes.is_sound(profile):
-            raise BadFile(f"{source}: its profile {profile_notes.name_of(profile)} holds what is no number")
-    if len({profile_notes.name_of(profile) for profile in profiles}) < len(profiles):
-        raise BadFile(f"{source}: it holds two profiles of one skill at one velocity")
+    fault = fault_in(profiles)
+    if fault:
+        raise BadFile(f"{source}: {fault}")
 
 
 def _begun(rulebook: Rulebook, note: str) -> Step:

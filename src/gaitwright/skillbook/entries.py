@@ -1,5 +1,6 @@
 """Everything in a book as strict plain entries: what a file holds, whatever its form, is checked here."""
 
+from collections.abc import Iterable
 from typing import Annotated, Any, Literal, TypeVar
 
 import msgspec
@@ -27,7 +28,7 @@ from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.rules import Event, Rulebook
 from gaitwright.knowledge.told import Given, Told
 from gaitwright.skillbook.history import Ancestor, How, Step
-from gaitwright.skillbook.profile_notes import ProfileNotes
+from gaitwright.skillbook.profile_notes import ProfileNotes, fault_in, name_of
 from gaitwright.skillbook.pupil_notes import PupilNotes
 
 T = TypeVar("T")
@@ -173,6 +174,15 @@ def _lesson_entry(lesson: Lesson) -> LessonEntry:
 
 def ancestor_entry(ancestor: Ancestor) -> AncestorEntry:
     return checked(ancestor, AncestorEntry)
+
+
+def profile_entries(profiles: Iterable[ProfileNotes]) -> tuple[ProfileNotes, ...]:
+    """Torque profiles in the order of their names, checked against the limits of a file."""
+    ordered = tuple(sorted((checked(profile, ProfileNotes) for profile in profiles), key=name_of))
+    fault = fault_in(ordered)
+    if fault:
+        raise WrongUse(f"a skillbook cannot hold this: {fault}")
+    return ordered
 
 
 # --- back ------------------------------------------------------------------------------------------

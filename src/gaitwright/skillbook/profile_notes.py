@@ -1,5 +1,6 @@
 """A torque profile as a skillbook holds it: which skill, at which velocity, and its table as numbers."""
 
+from collections.abc import Sequence
 from typing import Annotated
 
 import numpy as np
@@ -37,6 +38,18 @@ def name_of(profile: ProfileNotes) -> str:
     """What a profile is called in a book: an edited one stands beside what it was."""
     forward, left, turn = (part + 0.0 for part in profile.command)
     return f"{profile.skill} {forward:.3f} {left:.3f} {turn:.3f}{' edited' if profile.edited else ''}"
+
+
+def fault_in(profiles: Sequence[ProfileNotes]) -> str:
+    """Why a book cannot hold these, as a sentence; empty: it can."""
+    if len(profiles) > MOST:
+        return f"it holds {len(profiles)} profiles; {MOST} is the most"
+    for profile in profiles:
+        if not is_sound(profile):
+            return f"its profile {name_of(profile)} holds what is no number"
+    if len({name_of(profile) for profile in profiles}) < len(profiles):
+        return "it holds two profiles of one skill at one velocity"
+    return ""
 
 
 def is_sound(profile: ProfileNotes) -> bool:

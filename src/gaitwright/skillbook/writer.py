@@ -12,9 +12,9 @@ from gaitwright.knowledge.rules import Event, Rulebook
 from gaitwright.knowledge.told import Told
 from gaitwright.skillbook import rows
 from gaitwright.skillbook.book import Skillbook, about_of, book_of
-from gaitwright.skillbook.entries import checked, encoded, event_entries, step_entry
+from gaitwright.skillbook.entries import checked, encoded, event_entries, profile_entries, step_entry
 from gaitwright.skillbook.history import Step, forgotten, names_told
-from gaitwright.skillbook.profile_notes import MOST, ProfileNotes, name_of
+from gaitwright.skillbook.profile_notes import ProfileNotes
 from gaitwright.skillbook.pupil_notes import PupilNotes
 from gaitwright.skillbook.schema import MAX_BYTES, connected, located, migrate, number, sentences, version_of
 
@@ -68,12 +68,9 @@ class Ledger:
         return self._store(replace(self.book, rulebook=rulebook, pupil=notes), {})
 
     def keep_profiles(self, profiles: Iterable[ProfileNotes]) -> Skillbook:
-        """Stores torque profiles in place of all that were in the book. Raises `WrongUse` where there are
-        too many."""
-        ordered = tuple(sorted((checked(profile, ProfileNotes) for profile in profiles), key=name_of))
-        if len(ordered) > MOST:
-            raise WrongUse(f"a skillbook holds at most {MOST} profiles, not {len(ordered)}")
-        return self._store(replace(self.book, profiles=ordered), {})
+        """Stores torque profiles in place of all that were in the book. Raises `WrongUse` where no file can
+        hold them."""
+        return self._store(replace(self.book, profiles=profile_entries(profiles)), {})
 
     def _moved(self, events: tuple[Event, ...], lessons: int = 0) -> Rulebook:
         """The rules as they are in the file, with more events and lessons behind them."""
