@@ -172,7 +172,8 @@ def test_json_to_a_device_leaves_the_device():
 
 
 def test_runs_are_numbered_not_overwritten(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr("gaitwright.cli.demo.SECONDS", 0.2)
+    for name, little in (("SECONDS", 0.2), ("SCHOOL", 1), ("SKILLS", ())):
+        monkeypatch.setattr(f"gaitwright.cli.demo.{name}", little)
     monkeypatch.setattr(trips, "illustrate", lambda *_: [])
     assert [main(["demo"]), main(["demo"])] == [1, 1]  # nobody crosses the field in that time
     assert sorted(path.name for path in (tmp_path / "runs").iterdir()) == ["demo-001", "demo-002"]

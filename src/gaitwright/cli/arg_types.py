@@ -31,6 +31,7 @@ BOOK_TASKS = {
     "export": "a book as text",
     "import": "a book from text",
     "confirm": "BOOK takes in a SKILL that is proposed by analogy",
+    "edit": "BOOK takes in what a person changed in a profile's TABLE",
     "undo": "BOOK forgets the last lesson that counts",
     "forget": "BOOK forgets a LESSON by its name",
 }

@@ -171,6 +171,12 @@ def add_skills(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--plot", action="store_true", help="draw the leg cycles, see --out")
     cycle = "check and draw this leg cycle: climb, trot, walk, or a JSON file"
     parser.add_argument("--cycle", metavar="NAME|FILE", help=cycle)
+    table = "show the torque profile of this skill in --skillbook; --out FILE.csv: as a table to edit"
+    parser.add_argument("--profile", metavar="SKILL", help=table)
+    parser.add_argument("--skillbook", metavar="BOOK", help="--profile: the book that holds it")
+    where = "--profile: at about this speed, in m/s, and yaw rate, in rad/s (what the skill is meant for)"
+    parser.add_argument("--speed", type=finite, metavar="V", help=where)
+    parser.add_argument("--turn", type=finite, metavar="W", help="see --speed")
     parser.add_argument("--out", metavar="FILE", help="where to draw (runs/skills-ROBOT.png)")
 
 
@@ -227,10 +233,12 @@ def add_books(parser: argparse.ArgumentParser) -> None:
         "files",
         nargs="+",
         metavar="FILE",
-        help="the books, or the text to import; for confirm a skill, for forget a lesson too",
+        help="the books, or the text to import; a skill (confirm), a lesson (forget), a table (edit)",
     )
     out = "the new book, or where the text goes (export: the standard output; confirm, undo, forget: none)"
     parser.add_argument("--out", metavar="FILE|-", help=out)
+    accept = "edit: take it in, after it was shown in physics (only show it)"
+    parser.add_argument("--accept", action="store_true", help=accept)
     base = "merge: the book that both come from (found without being named, checked where it is)"
     parser.add_argument("--base", metavar="BOOK", help=base)
 

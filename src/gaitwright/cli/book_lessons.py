@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 
+from gaitwright.cli import profiles
 from gaitwright.cli.book_files import facts_of, skillbook_of
 from gaitwright.cli.console import show_pairs, working
 from gaitwright.cli.explain_text import counted
@@ -62,8 +63,10 @@ def undo(args: Namespace) -> None:
 
 
 def forget(args: Namespace) -> None:
-    """Forgets one lesson."""
+    """Forgets one lesson, or what a person edited in a profile."""
     path, name = args.files
+    if profiles.forget(path, name):
+        return
     book, pupil = read(path)
     gone = [told for told in pupil.told if told.id == name]
     if not gone:

@@ -6,7 +6,7 @@ from argparse import Namespace
 from dataclasses import asdict, replace
 from pathlib import Path
 
-from gaitwright.cli import book_lessons
+from gaitwright.cli import book_lessons, profiles
 from gaitwright.cli.book_files import SQLITE, check_there, facts_of, new_file, skillbook_of
 from gaitwright.cli.console import remark, show_pairs, show_prose, working
 from gaitwright.cli.explain_text import counted
@@ -26,6 +26,7 @@ FILES = {
     "confirm": ("BOOK", "SKILL"),
     "undo": ("BOOK",),
     "forget": ("BOOK", "LESSON"),
+    "edit": ("BOOK", "TABLE"),
 }
 """What each task is given."""
 
@@ -43,6 +44,8 @@ def run(args: Namespace) -> int:
         raise WrongUse(f"books {args.task} takes {len(wanted)}: {' '.join(wanted)}; got {given}")
     if args.base is not None and args.task != "merge":
         raise WrongUse(f"--base is the book that two come from: books {args.task} has no use for it")
+    if args.accept and args.task != "edit":
+        raise WrongUse(f"--accept takes an edited profile in: books {args.task} has no use for it")
     if args.out is not None and args.task in IN_PLACE:
         raise WrongUse(f"books {args.task} changes {wanted[0]} itself: leave --out out")
     TASKS[args.task](args)
@@ -179,6 +182,7 @@ IN_PLACE = {
     "confirm": book_lessons.confirm,
     "undo": book_lessons.undo,
     "forget": book_lessons.forget,
+    "edit": profiles.edit,
 }
 """The tasks that change a book itself."""
 TASKS = {"merge": merge_books, "export": export_book, "import": import_book, **IN_PLACE}

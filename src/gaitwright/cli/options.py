@@ -71,11 +71,13 @@ COMMANDS = {
         "The skills with their gaits. Periods and speeds grow with the square root of a robot's height. "
         "--plot draws their leg cycles: the path of a foot as points, and when which foot is down. --cycle "
         "checks a leg cycle in each skill, or in the one it is named after, and names the point and the leg "
-        "that are wrong. Exit code 1: the robot can walk it in none of them.",
+        "that are wrong. --profile draws the torques that a skillbook holds for a skill, or writes them as a "
+        "table. Exit code 1: the robot can walk a leg cycle in no skill.",
         (
             "gaitwright skills",
             "gaitwright skills --robot hexapod --plot",
             "gaitwright skills --cycle mine.json --out mine.png",
+            "gaitwright skills --profile trot --skillbook go2.skills --out trot.csv",
         ),
     ),
     "teach": Command(
@@ -112,7 +114,8 @@ COMMANDS = {
         "a skillbook from such a text, or one that begins with a rulebook as JSON. No file is ever written "
         "over by these. confirm, undo and forget change BOOK itself, and say what changed: confirm takes in "
         "a skill that `gaitwright teach` proposed by analogy, undo forgets the last lesson that counts (what "
-        "was confirmed together counts as one), forget a lesson by its name.",
+        "was confirmed together counts as one), forget a lesson, or an edited profile, by its name, edit "
+        "takes in what you changed in a profile's table (`gaitwright skills --profile`).",
         (
             "gaitwright books merge mine.skills yours.skills --out both.skills",
             "gaitwright books export mine.skills --out mine.txt     # without --out: to the standard output",

@@ -6,6 +6,7 @@ import re
 from argparse import Namespace
 from pathlib import Path
 
+from gaitwright.cli import profiles
 from gaitwright.cli.console import remark, show_table, working
 from gaitwright.cli.output import check_json, settled, write_json
 from gaitwright.cli.trips import find_robot, has
@@ -22,6 +23,11 @@ FOUND = ("skill", "speed", "what was found")
 
 def run(args: Namespace) -> int:
     check_json(args.json)
+    if args.profile is not None:
+        profiles.show(find_robot(args.robot, args.package), args)
+        return 0
+    if args.skillbook is not None or args.speed is not None or args.turn is not None:
+        raise WrongUse("--skillbook, --speed and --turn say which profile to show: add --profile SKILL")
     args.out = check_picture(args.out)
     cycle = load_cycle(args.cycle) if args.cycle else None
     robot = find_robot(args.robot, args.package)
