@@ -24,10 +24,11 @@ class Command(NamedTuple):
 
 COMMANDS = {
     "demo": Command(
-        "a robot crosses a field of blocks; leaves a picture and a recording in runs/",
+        "the whole story: a robot crosses a field, learns, and crosses another one",
         "Without arguments and without network: go2 walks from (0, 0) to (6, 0) among blocks, over the low "
-        "ones and around the high ones. Prints the figures of the trip and leaves a picture, the recording "
-        "and the report in a new folder runs/demo-NNN.",
+        "ones and around the high ones, by the numerical controller. Then it goes to school, which takes "
+        "about a minute, and crosses another field by what it has learned. Prints the figures of both trips "
+        "and leaves pictures, recordings, reports and the skillbook in a new folder runs/demo-NNN.",
         ("gaitwright demo", "gaitwright demo --seed 3 --out runs/three", "gaitwright demo --json -"),
     ),
     "mission": Command(
@@ -75,8 +76,7 @@ COMMANDS = {
         "table. Exit code 1: the robot can walk a leg cycle in no skill.",
         (
             "gaitwright skills",
-            "gaitwright skills --robot hexapod --plot",
-            "gaitwright skills --cycle mine.json --out mine.png",
+            "gaitwright skills --robot hexapod --plot     # --cycle mine.json: your own",
             "gaitwright skills --profile trot --skillbook go2.skills --out trot.csv",
         ),
     ),
@@ -86,9 +86,10 @@ COMMANDS = {
         "right where she is wrong or unsure. Trips are situations along a way, without physics; what was "
         "learned drives real ones. With --live you are the teacher, on a mission in physics or on a "
         "recording: stop, say what would be right, see what that changes, keep it or not. Every lesson is in "
-        "the file before the next, an interrupt keeps it, and the same command goes on.",
+        "the file before the next, an interrupt keeps it, and the same command goes on. --lesson profiles "
+        "takes the torques of every skill from the numerical controller, for drivers learned and hybrid.",
         (
-            "gaitwright teach --robot go2 --out go2.skills",
+            "gaitwright teach --lesson all --robot go2 --out go2.skills",
             "gaitwright teach --live --scene slippery:0.3 --goal 4 0 --out go2.skills",
             "gaitwright mission --driver hybrid --skillbook go2.skills --scene stairs --goal 6.5 0",
         ),

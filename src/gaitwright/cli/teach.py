@@ -92,6 +92,12 @@ def check_live(args: Namespace) -> None:
     """`WrongUse` for options that do not go together."""
     asked = {"scene": args.scene, "goal": args.goal, "start": args.place, "speed": args.speed}
     where = [name for name, value in {**asked, "recording": args.recording}.items() if value is not None]
+    if args.lesson == "profiles" and (args.trips is not None or args.policy is not None):
+        raise WrongUse(
+            "profiles come from the numerical controller, without trips: leave --trips and --policy out"
+        )
+    if args.live and args.lesson != "skills":
+        raise WrongUse("with --live a person teaches skills: leave --lesson out")
     if not args.live and where:
         raise WrongUse(f"--{where[0]} is where a person teaches: add --live")
     if not args.live:

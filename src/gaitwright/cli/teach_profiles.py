@@ -6,7 +6,8 @@ from time import perf_counter
 from typing import Any
 
 from gaitwright.cli.console import remark, show_table, working
-from gaitwright.learning.profile_books import playable
+from gaitwright.errors import BadFile
+from gaitwright.learning.profile_books import Playable, playable
 from gaitwright.learning.profile_school import STARTS, Learned, Task, learn
 from gaitwright.model.robot import Robot
 from gaitwright.skillbook.profile_notes import ProfileNotes
@@ -20,7 +21,7 @@ HEAD = ("skill", "profiles", "speeds [m/s]", "turns [rad/s]", "repeats", "played
 def run(robot: Robot, ledger: Ledger, args: Namespace) -> dict[str, Any]:
     """Teaches what the book does not hold yet or is out of date; the figures of what was learned."""
     began, source = perf_counter(), ledger.path.name
-    known = playable(ledger.book, robot, source)
+    known = known_in(ledger, robot)
     for sentence in known.outdated.values():
         remark(f"{sentence}: they are taught again")
     wanted = [name for name in skill_names(robot.n) if name not in known.profiles]
@@ -35,6 +36,15 @@ def run(robot: Robot, ledger: Ledger, args: Namespace) -> dict[str, Any]:
         "profiles": len(ledger.book.profiles),
         "seconds": perf_counter() - began,
     }
+
+
+def known_in(ledger: Ledger, robot: Robot) -> Playable:
+    """The profiles that the book holds already; none where another version wrote them."""
+    try:
+        return playable(ledger.book, robot, ledger.path.name)
+    except BadFile as error:
+        remark(f"{error}: all are taught again")
+        return Playable({}, {})
 
 
 def learned(robot: Robot, ledger: Ledger, wanted: Sequence[str], seed: int) -> list[Learned]:

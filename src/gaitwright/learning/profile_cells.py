@@ -21,7 +21,7 @@ NEED, REPEATS = 0.05, 2.0
 """Torque error between cells beyond which one more is taught, half of what is allowed; and so many times what
 the teacher herself is off from one start to the next."""
 STEADY = 0.2
-"""Where she is off by more than that, at an end, there is no cycle to be taught."""
+"""Where she is off by more than that, there is no cycle to be taught, but for what the skill is meant for."""
 DEEP = 1
 """So often the stretch between two cells is halved."""
 CALM = 0.45
@@ -116,4 +116,5 @@ def cells_for(robot: Robot, name: str, seed: int = 0, teach: Teacher = taught) -
         places = sorted({home[axis], *(end for end in reached if end is not None)})
         axes.append(lessons.refined(home, axis, places))
     grid = [lessons.at((speed, turn)) for speed in axes[0] for turn in axes[1]]
-    return [profile for profile in grid if profile is not None]
+    known = [profile for profile in grid if profile is not None]
+    return [profile for profile in known if profile is first or profile.repeat < STEADY]

@@ -82,7 +82,7 @@ def go_on(context: Context, path: Path, done: int, trips: int) -> None:
     with open_for_learning(path) as ledger:
         pupil = pupil_of(ledger.book) if done else SkillPupil(context.seed)
         robot, teacher = robot_named("go2"), ScriptedTeacher()
-        attend(pupil, robot, teacher, context.seed, trips - done, done, ledger.tell)
+        attend(pupil, robot, teacher, context.seed, trips, done, ledger.tell)
         settle(ledger, pupil)
 
 

@@ -1,7 +1,8 @@
 """A profile at another pace: the same path of body and feet, walked faster or slower (row L9, time warp).
 
 Forces and what carries the legs' own weight are held; the rest of the legs' torques goes with the square of
-the pace (Hollerbach 1984). Beyond ±20 % the body's sway is another one: then it is taught anew.
+the pace (`dynamics.time_warp`, thesis 5.3). Beyond ±20 % the body's sway is another one: then it is taught
+anew.
 """
 
 import math
@@ -12,6 +13,7 @@ from jaxtyping import Float
 
 from gaitwright.control.learned.profile import ROW, Profile, Table, row_of
 from gaitwright.dynamics.newton_euler import inverse_dynamics
+from gaitwright.dynamics.time_warp import warped_torques
 from gaitwright.errors import WrongUse
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY
@@ -37,7 +39,7 @@ def warped(robot: Robot, profile: Profile, ratio: float) -> Profile:
     held = weight_torques(robot, table).reshape(len(table), -1)
     where = ROW.slices(legs)
     before = table[:, where["free"]].copy()
-    table[:, where["free"]] = held + (before - held) / ratio**2
+    table[:, where["free"]] = warped_torques(before, held, np.zeros_like(held), 1.0 / ratio)
     table[:, where["tau"]] += table[:, where["free"]] - before
     for name in ("lag_rate", "qd", "velocity", "omega"):
         table[:, where[name]] /= ratio
