@@ -12,14 +12,13 @@ from gaitwright.perception.fault_words import JOINTS as NAMED_JOINTS
 from gaitwright.perception.fault_words import KINDS
 from gaitwright.plant.faults import (
     LATE,
-    LEGGED_GYM,
     OFFSET,
     Breakdown,
     FaultyPlant,
-    Imperfections,
     breakdown,
     changed,
 )
+from gaitwright.plant.imperfections import LEGGED_GYM, NOISE, Imperfections
 from gaitwright.plant.names import FAULTS, JOINTS
 from gaitwright.plant.registry import make_plant
 from gaitwright.signals import Measured, MotorCommand
@@ -172,3 +171,17 @@ def test_a_reading_is_changed_without_touching_the_one_it_comes_from() -> None:
 def test_what_there_is_not_is_told(asked: tuple[str, str, str], sentence: str) -> None:
     with pytest.raises(WrongUse, match=sentence):
         breakdown(GO2, *asked)
+
+
+def test_an_inertial_unit_and_feet_are_as_noisy_as_they_are_named():
+    plant = FaultyPlant(make_plant("mujoco", GO2, FLAT), GO2, (), NOISE["legged-gym"])
+    told = plant.reset(5, vary=False)
+    off = np.array(
+        [np.array(plant.read().specific_force_b) - plant.truth.specific_force_b for _ in range(400)]
+    )
+    assert (np.abs(off - plant.force_bias) <= 0.5 + 1e-9).all()
+    np.testing.assert_allclose(off.mean(axis=0), plant.force_bias, atol=0.06)
+    np.testing.assert_allclose(np.abs(plant.force_bias), 0.1)
+    spin = np.array([plant.read().angular_velocity_b - plant.truth.angular_velocity_b for _ in range(400)])
+    np.testing.assert_allclose(spin.mean(axis=0), plant.spin_bias, atol=0.03)
+    assert (told.load[plant.truth.load == 0.0] == 0.0).all() and (told.load >= 0.0).all()

