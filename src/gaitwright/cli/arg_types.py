@@ -3,6 +3,7 @@
 import argparse
 import math
 import re
+from collections.abc import Callable, Collection
 from pathlib import Path
 
 from gaitwright.errors import WrongUse, short, unknown
@@ -100,22 +101,24 @@ def folder(text: str) -> Path:
     return path
 
 
-def driver(text: str) -> str:
-    if text not in DRIVERS:
-        raise unknown("driver", text, DRIVERS)
-    return text
+def one_of(what: str, offers: Collection[str]) -> Callable[[str], str]:
+    """What takes one of some names, and says which there are where it is none of them."""
+
+    def chosen(text: str) -> str:
+        if text not in offers:
+            raise unknown(what, text, offers)
+        return text
+
+    return chosen
 
 
-def sensing(text: str) -> str:
-    if text not in SENSINGS:
-        raise unknown("sensing", text, SENSINGS)
-    return text
-
-
-def sensors(text: str) -> str:
-    if text not in SENSORS:
-        raise unknown("sensors", text, SENSORS)
-    return text
+driver = one_of("driver", DRIVERS)
+sensing = one_of("sensing", SENSINGS)
+sensors = one_of("sensors", SENSORS)
+lesson_named = one_of("lesson", LESSONS)
+distribution = one_of("distribution", ("qp", "lp"))
+plant = one_of("plant", PLANTS)
+book_task = one_of("task of books", BOOK_TASKS)
 
 
 def delay_of(text: str) -> float:
@@ -123,30 +126,6 @@ def delay_of(text: str) -> float:
     if not 0.0 <= value <= 40.0:
         raise argparse.ArgumentTypeError(f"{text.strip()!r} is not a delay from 0 to 40 ms")
     return value
-
-
-def lesson_named(text: str) -> str:
-    if text not in LESSONS:
-        raise unknown("lesson", text, LESSONS)
-    return text
-
-
-def distribution(text: str) -> str:
-    if text not in ("qp", "lp"):
-        raise unknown("distribution", text, ("qp", "lp"))
-    return text
-
-
-def plant(text: str) -> str:
-    if text not in PLANTS:
-        raise unknown("plant", text, PLANTS)
-    return text
-
-
-def book_task(text: str) -> str:
-    if text not in BOOK_TASKS:
-        raise unknown("task of books", text, BOOK_TASKS)
-    return text
 
 
 def fault(text: str) -> tuple[str, str, str, float]:

@@ -18,7 +18,7 @@ from gaitwright.model.robot import Robot
 from gaitwright.session import DT, Push
 from gaitwright.signals import Mission, SkillCall
 from gaitwright.skills.chooser import HeldSkill, fixed_skill
-from gaitwright.skills.library import fastest, find_skill
+from gaitwright.skills.library import fastest_turn, feet_reach, find_skill
 
 PLANNED = ("climb", "descend")
 """Skills that are planned beforehand on the plant without mechanics."""
@@ -78,10 +78,9 @@ def check_motors(robot: Robot, call: SkillCall, cycle: LegCycle | None = None) -
 
 def check_turn(robot: Robot, call: SkillCall) -> None:
     """`WrongUse` for a yaw rate beyond what the skill can do on this robot."""
-    reach = float((robot.nominal_feet[:, 0] ** 2 + robot.nominal_feet[:, 1] ** 2).max()) ** 0.5
-    most = fastest(find_skill(call.skill, robot), robot) / reach
+    most = fastest_turn(find_skill(call.skill, robot), robot)
     if abs(call.turn) > most * (1 + 1e-9):
         raise WrongUse(
             f"{call.skill} at a yaw rate of {call.turn:g} rad/s is beyond the reach of {robot.name}, whose "
-            f"feet are up to {reach:.2f} m from its middle: at most {most:.2f} rad/s"
+            f"feet are up to {feet_reach(robot):.2f} m from its middle: at most {most:.2f} rad/s"
         )

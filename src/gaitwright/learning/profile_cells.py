@@ -7,14 +7,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 
-import numpy as np
-
 from gaitwright.control.learned.cells import Cells
 from gaitwright.control.learned.profile import Profile, torque_error
 from gaitwright.errors import WrongUse
 from gaitwright.learning.profile_lessons import taught
 from gaitwright.model.robot import Robot
-from gaitwright.skills.library import Skill, fastest, find_skill, speed_scale
+from gaitwright.skills.library import Skill, fastest, fastest_turn, find_skill, speed_scale
 from gaitwright.skills.path_following import MOST_TURN
 
 NEED, REPEATS = 0.05, 2.0
@@ -96,7 +94,7 @@ def ends_of(robot: Robot, skill: Skill) -> tuple[tuple[float, ...], tuple[float,
     if skill.duty >= 1.0:
         return (), ()
     scale, most = speed_scale(robot), fastest(skill, robot)
-    turn = min(MOST_TURN / scale, most / float(np.linalg.norm(robot.nominal_feet[:, :2], axis=1).max()))
+    turn = min(MOST_TURN / scale, fastest_turn(skill, robot))
     speeds = (0.0 if skill.speed <= CALM else 0.5 * skill.speed * scale, most)
     return (speeds if skill.speed else ()), (-turn, turn)
 

@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.control.learned.profile import BINS, ROW, Profile
+from gaitwright.control.learned.profile import BINS, ROW, Profile, as_kept
 from gaitwright.errors import BadFile, WrongUse
 from gaitwright.model.robot import Robot
 from gaitwright.plant.names import JOINTS
@@ -83,7 +83,7 @@ def edited(robot: Robot, profile: Profile, content: str, source: str) -> Profile
     most = float(change[row, column])
     leg, joint = robot.legs[column // 3], JOINTS[column % 3]
     said = f"up to {most:+.2f} N·m at {leg} {joint}, phase {row / ROWS:.2f}"
-    return replace(profile, table=table.astype(np.float32).astype(np.float64), edited=said)
+    return replace(profile, table=as_kept(table), edited=said)
 
 
 def torques_in(robot: Robot, content: str, source: str) -> Torques:

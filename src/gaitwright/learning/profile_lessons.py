@@ -7,7 +7,7 @@ import numpy as np
 from jaxtyping import Float
 
 from gaitwright.control.learned.law import note
-from gaitwright.control.learned.profile import BINS, ROW, Profile, Table, mean_cycle, torque_error
+from gaitwright.control.learned.profile import BINS, ROW, Profile, Table, as_kept, mean_cycle, torque_error
 from gaitwright.control.numerical import NumericalController
 from gaitwright.errors import WrongUse
 from gaitwright.gait.coordinator import Coordinator
@@ -39,7 +39,7 @@ def taught(
     chooser = fixed_skill(robot, skill, speed, 0.0, turn, "numerical")
     call = chooser.skill_call
     starts = cycles_of(robot, chooser, seed)
-    table = np.mean(starts, axis=0).astype(np.float32).astype(np.float64)  # as a book holds it
+    table = as_kept(np.mean(starts, axis=0))
     repeat = torque_error(starts[1], starts[0], robot.n)
     return Profile(call.gait, (*call.velocity, call.turn), table, repeat, answers_of(robot, call))
 
@@ -109,7 +109,7 @@ def answers_of(robot: Robot, call: SkillCall) -> Float[np.ndarray, "probes torqu
         target, memory = coordinator.move(memory, call, sensed)
         if (step + 1) % (steps // PROBES) == 0:
             answers.append(controller.command(target, sensed, None, call)[0].tau.ravel())
-    return np.array(answers).astype(np.float32).astype(np.float64)
+    return as_kept(np.array(answers))
 
 
 def changed_by(robot: Robot, profile: Profile) -> float:

@@ -134,6 +134,16 @@ def fastest(skill: Skill, robot: Robot) -> float:
     return min(skill.fastest * speed_scale(robot), by_reach)
 
 
+def fastest_turn(skill: Skill, robot: Robot) -> float:
+    """Fastest yaw rate of a skill [rad/s]: the foot farthest from the middle goes at its fastest speed."""
+    return fastest(skill, robot) / feet_reach(robot)
+
+
+def feet_reach(robot: Robot) -> float:
+    """How far the feet are from the robot's middle, the farthest one, seen from above [m]."""
+    return float((robot.nominal_feet[:, 0] ** 2 + robot.nominal_feet[:, 1] ** 2).max()) ** 0.5
+
+
 def meant(skill: Skill, robot: Robot) -> tuple[float, float, float]:
     """The velocity a skill is meant for on a robot: forward, left [m/s], yaw rate [rad/s]."""
     k = speed_scale(robot)

@@ -1,14 +1,15 @@
 """Claim: robots of other people's files trot and walk by what they were taught, and stand a push."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
-from gaitwright.bench.claims.learned import HANDED_OVER, both
+from gaitwright.bench.claims.learned import both, handed_over, survived
 from gaitwright.bench.claims.missions import models_folder
 from gaitwright.bench.claims.strangers import why_refused
 from gaitwright.bench.context import Context
 from gaitwright.bench.measurement import Figure, count
 from gaitwright.bench.strangers.robot_files import RobotFile, robot_files
-from gaitwright.bench.trial import Push, Then, Trial
+from gaitwright.bench.trial import Push
 from gaitwright.errors import short
 
 SKILLS = ("trot", "walk")
@@ -48,12 +49,9 @@ def one_robot(context: Context, file: RobotFile) -> tuple[Figure, bool]:
     path, trials = str(file.path), []
     for skill in SKILLS:
         for k, seed in enumerate(context.seeds(STARTS)):
-            then = Then(skill, HANDED_OVER, "learned", same_velocity=True)
             push = Push(PUSH, 90.0 * (-1) ** k, 0.5 * SECONDS)
-            trials.append(Trial(path, "flat", SECONDS, seed, skill, None, None, then=then, push=push))
+            trials.append(replace(handed_over(skill, "learned", seed, SECONDS), robot=path, push=push))
     found = both(context, file.name, trials)
-    good = {driver: sum(o.kept_up for o in outcomes) for driver, outcomes in found.items()}
-    fell = [o.report.stopped_because for o in found["learned"] if not o.kept_up]
-    note = f"numerical {good['numerical']} of {len(trials)}" + (f"; {fell[0]}" if fell else "")
+    good = sum(outcome.kept_up for outcome in found["learned"])
     what = f"{short(file.name)}: trot and walk, {SECONDS:g} s, pushed"
-    return count(what, good["learned"], len(trials), None, note, {}), good["learned"] >= GOOD * len(trials)
+    return survived(what, found, None), good >= GOOD * len(trials)

@@ -111,6 +111,11 @@ def mean_cycle(
     return np.stack([np.interp(np.arange(BINS), around, column) for column in thrice.T], axis=1)
 
 
+def as_kept(numbers: np.ndarray) -> np.ndarray:
+    """Numbers as a skillbook keeps them, which has 32 bits for each."""
+    return numbers.astype(np.float32).astype(np.float64)
+
+
 def torque_error(one: Table, other: Table, legs: int) -> float:
     """RMS of the difference of the torques of two tables over the RMS of the other's."""
     where = ROW.slices(legs)["tau"]
