@@ -18,6 +18,7 @@ from gaitwright.control.takeover import HYBRID, LEARNED, UNDECIDED, Drive, Takeo
 from gaitwright.errors import unknown
 from gaitwright.gait.coordinator import Coordinator
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle
+from gaitwright.gait.operators import Operator
 from gaitwright.ground.scene import Scene
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.model.robot import Robot
@@ -125,6 +126,13 @@ class Brain:
         return replace(
             self, controllers=controllers, takeover=Takeover(learned, coordinator.dt) if profiles else None
         )
+
+    def with_operators(self, operators: Sequence[Operator]) -> "Brain":
+        """The same brain with terrain operators, tried in this order, whoever computes the torques."""
+        if not operators:
+            return self
+        assert isinstance(self.coordinator, Coordinator), "a planned climb has no swings to edit"
+        return replace(self, coordinator=replace(self.coordinator, operators=tuple(operators)))
 
     def begin(
         self, mission: Mission, measured: Measured, phase: float = 0.0, before: "Mind | None" = None

@@ -237,6 +237,13 @@ class MotionTarget(Packed):
     """Joint angles that realise them [rad]."""
     command: Float[np.ndarray, "3"]
     """Velocity asked for now, after slewing: forward, left [m/s], yaw rate [rad/s]."""
+    operator: Float[np.ndarray, "legs"]
+    """Number of the terrain operator that each leg is under, from 1 on; 0: none; −1: none is for what
+    is ahead."""
+    reach: Float[np.ndarray, "legs"]
+    """Metres of obstacle that it answers."""
+    extra_force_w: Float[np.ndarray, "legs 3"]
+    """Forces that it takes to move the feet so [N]."""
 
     @property
     def share(self) -> Float[np.ndarray, "legs"]:

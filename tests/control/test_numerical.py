@@ -82,6 +82,9 @@ def hold(robot: Robot, sensed: Sensed, stance: np.ndarray | None = None) -> Moti
         feet_acceleration_w=legs,
         q=sensed.q,
         command=still,
+        operator=np.zeros(robot.n),
+        reach=np.zeros(robot.n),
+        extra_force_w=legs,
     )
 
 

@@ -111,6 +111,7 @@ def standing(name: str, rng: np.random.Generator):
     target = MotionTarget(
         0.0, down, down.astype(float), np.full(robot.n, GRIP), UP, s.position_w, still, still,
         np.eye(3), still, still, joints, joints, joints, q, still,
+        np.zeros(robot.n), np.zeros(robot.n), joints,
     )  # fmt: skip
     return robot, s, target
 

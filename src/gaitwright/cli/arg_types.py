@@ -25,7 +25,8 @@ SENSINGS = {
 LESSONS = {
     "skills": "which skill to use where",
     "profiles": "the torques of each skill, from the numerical controller",
-    "all": "both",
+    "operators": "how a leg gets over an obstacle, from the numerical controller",
+    "all": "all of them",
 }
 BOOK_TASKS = {
     "merge": "two books to one",

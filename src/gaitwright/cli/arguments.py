@@ -27,6 +27,7 @@ from gaitwright.cli.arg_types import (
     sensing,
     sensors,
 )
+from gaitwright.cli.operator_arguments import add_operators
 from gaitwright.plant.names import FAULTS, INTEGRATORS, JOINTS, PLANTS, SENSORS
 
 
@@ -272,6 +273,7 @@ ADD = {
     "teach": add_teach,
     "explain": add_explain,
     "books": add_books,
+    "operators": add_operators,
     "bench": add_bench,
     "reproduce": add_reproduce,
     "doctor": add_nothing,

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from gaitwright.cli import trips
 from gaitwright.cli.console import remark
-from gaitwright.cli.driving import profiles_for
+from gaitwright.cli.driving import operators_for, profiles_for
 from gaitwright.cli.output import numbered_folder
 from gaitwright.cli.teach import taught
 from gaitwright.cli.teach_profiles import learned
@@ -75,4 +75,5 @@ def by_book(robot: Robot, path: Path, args: Namespace) -> trips.Setting:
     """The robot in another field, with what it has learned."""
     chooser = RuleChooser(robot, Skillbook.load(path).rulebook)
     setting = trips.set_up(robot, field(robot, args.seed + 1), chooser, "qp")
-    return replace(setting, brain=setting.brain.with_profiles(profiles_for(robot, str(path))))
+    brain = setting.brain.with_operators(operators_for(robot, str(path)))
+    return replace(setting, brain=brain.with_profiles(profiles_for(robot, str(path))))

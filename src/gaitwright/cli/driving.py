@@ -4,6 +4,8 @@ from gaitwright.cli.book_files import is_skillbook, skillbook_of
 from gaitwright.cli.console import remark, working
 from gaitwright.control.learned.profile import Profile
 from gaitwright.errors import WrongUse, short
+from gaitwright.gait.operators import Operator
+from gaitwright.learning.operator_books import operators_in
 from gaitwright.learning.profile_books import Playable, playable
 from gaitwright.model.robot import Robot
 from gaitwright.skillbook.book import Skillbook
@@ -37,6 +39,11 @@ def profiles_of_skill(robot: Robot, path: str, skill: str) -> dict[str, list[Pro
         known = ", ".join(sorted({notes.skill for notes in skillbook_of(path).profiles})) or "none"
         raise WrongUse(f"{short(path)} has no profiles of {skill}; it has: {known}; {again(robot, path)}")
     return found.profiles
+
+
+def operators_for(robot: Robot, path: str) -> tuple[Operator, ...]:
+    """The terrain operators of a book; none in a file with rules alone, or of another robot."""
+    return operators_in(Skillbook.load(path), robot, short(path)) if is_skillbook(path) else ()
 
 
 def looked_up(robot: Robot, path: str, *skills: str) -> Playable:

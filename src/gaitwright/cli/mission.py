@@ -6,7 +6,7 @@ from dataclasses import replace
 from gaitwright.cli import trips
 from gaitwright.cli.book_files import rulebook_of
 from gaitwright.cli.console import remark
-from gaitwright.cli.driving import profiles_for, profiles_to_play
+from gaitwright.cli.driving import operators_for, profiles_for, profiles_to_play
 from gaitwright.control.takeover import HYBRID, LEARNED
 from gaitwright.errors import WrongUse
 from gaitwright.learning.live import LiveLessons
@@ -56,11 +56,14 @@ def run(args: Namespace) -> int:
 
 
 def with_profiles(setting: trips.Setting, args: Namespace) -> trips.Setting:
-    """The same with a learned controller that plays the profiles of a book, where it has some. Raises
+    """The same with the terrain operators of a book, and a learned controller that plays its profiles. Raises
     `WrongUse` for driver learned where it has none."""
+    if not args.skillbook:
+        return setting
     find = profiles_to_play if args.driver == LEARNED else profiles_for
-    profiles = find(setting.robot, args.skillbook) if args.skillbook else {}
-    return replace(setting, brain=setting.brain.with_profiles(profiles)) if profiles else setting
+    profiles, brain = find(setting.robot, args.skillbook), setting.brain
+    brain = brain.with_operators(operators_for(setting.robot, args.skillbook))
+    return replace(setting, brain=brain.with_profiles(profiles) if profiles else brain)
 
 
 def learn(ledger: Ledger, recording: Recording, name: str) -> None:

@@ -123,6 +123,19 @@ COMMANDS = {
             "gaitwright books confirm mine.skills walk-backward     # `books undo` takes it back",
         ),
     ),
+    "operators": Command(
+        "how legs get over obstacles: rules with what is added to a swing",
+        "The terrain operators of a skillbook, in the order in which they are tried: what is ahead of a leg, "
+        "and how its foot and its torques differ then, for every leg and skill. --size teaches one from "
+        "one edit on one leg: the path of a foot over an obstacle of that size, by a leg cycle of yours or "
+        "as the numerical controller raises it. It is shown in physics on every leg; --accept takes it in. "
+        "What no operator is for is left to the numerical controller.",
+        (
+            "gaitwright operators go2.skills",
+            "gaitwright operators go2.skills --size 0.06 --leg FL --cycle over.json --accept",
+            "gaitwright operators go2.skills --first 'over a block'     # --forget takes it out again",
+        ),
+    ),
     "bench": Command(
         "every claim, measured",
         "Measures what this project claims about itself, on this machine. Without names: everything.",

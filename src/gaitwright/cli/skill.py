@@ -6,7 +6,7 @@ from dataclasses import replace
 from gaitwright.assess.motor_requirements import HOPELESS, shortage, too_wide
 from gaitwright.cli import trips
 from gaitwright.cli.console import remark, working
-from gaitwright.cli.driving import profiles_of_skill
+from gaitwright.cli.driving import operators_for, profiles_of_skill
 from gaitwright.control.takeover import HYBRID, LEARNED
 from gaitwright.errors import WrongUse
 from gaitwright.gait.climb.climber import Climber, climb_call
@@ -43,7 +43,8 @@ def run(args: Namespace) -> int:
     setting = trips.set_up(robot, scene, chooser, args.distribution, args.sensing)
     if args.skillbook:
         profiles = profiles_of_skill(robot, args.skillbook, skill.name)
-        setting = replace(setting, brain=setting.brain.with_profiles(profiles))
+        brain = setting.brain.with_operators(operators_for(robot, args.skillbook))
+        setting = replace(setting, brain=brain.with_profiles(profiles))
     if cycle:
         setting = replace(setting, brain=setting.brain.with_cycle(skill.name, cycle))
     return trips.run(setting, Mission((), args.speed, args.driver), args, push)

@@ -66,15 +66,17 @@ def run(args: Namespace) -> int:
 
 def is_blank(book: Skillbook) -> bool:
     """Whether nothing was learned."""
-    return len(book.steps) == 1 and not book.profiles
+    return len(book.steps) == 1 and not book.profiles and not book.operators
 
 
 def teach(robot: Robot, teacher: ScriptedTeacher, ledger: Ledger, args: Namespace) -> None:
     """The lessons that were asked for."""
     figures = {}
-    if args.lesson != "profiles":
+    if args.lesson in ("skills", "all"):
         figures |= go_to_school(robot, teacher, ledger, args)
-    if args.lesson != "skills":
+    if args.lesson in ("operators", "all"):
+        figures["operators"] = import_module("gaitwright.cli.teach_operators").run(robot, ledger, args)
+    if args.lesson in ("profiles", "all"):
         figures["torque_profiles"] = import_module("gaitwright.cli.teach_profiles").run(robot, ledger, args)
         suggest(ledger.book, args)
     write_json(args.json, json.dumps(figures, indent=2, ensure_ascii=False))
@@ -92,9 +94,9 @@ def check_live(args: Namespace) -> None:
     """`WrongUse` for options that do not go together."""
     asked = {"scene": args.scene, "goal": args.goal, "start": args.place, "speed": args.speed}
     where = [name for name, value in {**asked, "recording": args.recording}.items() if value is not None]
-    if args.lesson == "profiles" and (args.trips is not None or args.policy is not None):
+    if args.lesson in ("profiles", "operators") and (args.trips is not None or args.policy is not None):
         raise WrongUse(
-            "profiles come from the numerical controller, without trips: leave --trips and --policy out"
+            f"{args.lesson} come from the numerical controller, without trips: leave --trips and --policy out"
         )
     if args.live and args.lesson != "skills":
         raise WrongUse("with --live a person teaches skills: leave --lesson out")
@@ -136,8 +138,9 @@ def begun(robot: Robot, name: str, args: Namespace) -> Skillbook:
         return Skillbook.new(FOREST, robot.name, name, args.seed)
     old = skillbook_of(args.start)
     check_teachable(old, args.start)  # before there is a new one
-    profiles = old.profiles if old.robot == robot.name else ()
-    return replace(old.forked(name), robot=robot.name, seed=args.seed, profiles=profiles)
+    is_own = old.robot == robot.name
+    torques = {"profiles": old.profiles if is_own else (), "operators": old.operators if is_own else ()}
+    return replace(old.forked(name), robot=robot.name, seed=args.seed, **torques)
 
 
 def check_teachable(book: Skillbook, path: Path | str) -> None:

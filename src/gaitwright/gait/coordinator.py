@@ -17,6 +17,7 @@ from gaitwright.gait.grip import feel_grip
 from gaitwright.gait.hurry import hurried
 from gaitwright.gait.leg_cycles.files import cycle_of
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle, tabulated_legs
+from gaitwright.gait.operators import Operator, Packed, packed
 from gaitwright.gait.reach_assist import reach_assist
 from gaitwright.gait.reference import periodic_reference
 from gaitwright.gait.regulation import height_over
@@ -69,6 +70,9 @@ def coordinate(
     clock,
     offsets,
     cycles,
+    terms,
+    tables,
+    imagined,
     leans,
     place,
     heights,
@@ -117,11 +121,29 @@ def coordinate(
     normal = plane_normal(state.slope)
     level = upright_rotation(normal, state.reference_pose[2])
     rotation_d, omega, omega_rate = pitching(level, pitch, state.command[2])
+    target = target_fields(out)
+    target.extra_force_w[:] = 0.0
+    operators = Packed(terms, tables)
     feet_p, feet_v, feet_a = feet_reference(
-        model, state, clock, cycles, leans, ground, rise, level, at, v, base_v, feet_w, height
+        model,
+        state,
+        clock,
+        cycles,
+        operators,
+        imagined,
+        leans,
+        ground,
+        rise,
+        level,
+        at,
+        v,
+        base_v,
+        feet_w,
+        height,
+        target.extra_force_w,
     )
     base_p = add(base_p, reach_assist(model, state, rotation_d, base_p, feet_w, duty, height))
-    target = target_fields(out)
+    target.operator[:], target.reach[:] = state.operator, state.reach
     target.phase[0], target.command[:] = phase, state.command
     target.stance[:] = state.mode == STANCE
     target.load_scale[:] = shares(state, phase, period, duty, offsets, missing)
@@ -193,6 +215,10 @@ class Coordinator:
     """Control period [s]."""
     cycles: dict[str, LegCycle] = field(default_factory=dict)
     """Leg cycles by skill, in place of those that come along."""
+    operators: tuple[Operator, ...] = ()
+    """Terrain operators, in the order in which they are tried."""
+    imagined: tuple[float, ...] = ()
+    """Obstacles that the legs take for seen, one per leg [m]: to teach and try operators with."""
     known: dict[Gait, Cycle] = field(default_factory=dict, init=False, repr=False, compare=False)
     """Cycles worked out so far: each is a function of its gait, so what is here changes no result."""
 
@@ -222,6 +248,8 @@ class Coordinator:
             cycle.clock,
             cycle.offsets,
             cycle.legs,
+            *self.operators_packed,
+            self.imagined_sizes,
             self.leans,
             *grid,
             rise,
@@ -241,6 +269,15 @@ class Coordinator:
             return asked
         speed = math.hypot(sensed.velocity_w[0], sensed.velocity_w[1])
         return asked if may_start(asked, speed, self.robot.height) else now
+
+    @cached_property
+    def operators_packed(self) -> Packed:
+        """The terrain operators as kernels read them."""
+        return packed(self.operators)
+
+    @cached_property
+    def imagined_sizes(self) -> Float[np.ndarray, "legs"]:
+        return np.array(self.imagined or (0.0,) * self.robot.n)
 
     @cached_property
     def width(self) -> int:

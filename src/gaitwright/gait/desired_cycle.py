@@ -117,6 +117,9 @@ class DesiredCycle:
             feet_acceleration_w=self.feet_acceleration_w[i].copy(),
             q=self.q[i].copy(),
             command=self.command.copy(),
+            operator=np.zeros(self.robot.n),
+            reach=np.zeros(self.robot.n),
+            extra_force_w=np.zeros((self.robot.n, 3)),
         )
 
 

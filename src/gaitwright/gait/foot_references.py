@@ -8,6 +8,21 @@ from jaxtyping import Float
 from gaitwright.gait.clearance import lift_needed
 from gaitwright.gait.contact_plane import plane_height
 from gaitwright.gait.contacts import swing_time
+from gaitwright.gait.obstacle import (
+    BLOCK,
+    DURATION,
+    EVEN,
+    HOLE,
+    LANDING,
+    NOTHING,
+    SLOPE,
+    UNTAUGHT,
+    ahead_of,
+    enhance,
+    obstacle_over,
+    operator_for,
+    reach_needed,
+)
 from gaitwright.gait.state import SEARCH, SWING
 from gaitwright.gait.swing import hip_over_ground, search_reference, swing_reference, touchdown
 from gaitwright.ground.elevation import height_at, is_known
@@ -44,12 +59,28 @@ def feet_in_base(rotation_wb, position, feet_w):
 
 @kernel
 def feet_reference(
-    model, state, clock, cycles, leans, ground, step, rotation_d, position, velocity, wanted, feet_w, height
+    model,
+    state,
+    clock,
+    cycles,
+    operators,
+    imagined,
+    leans,
+    ground,
+    step,
+    rotation_d,
+    position,
+    velocity,
+    wanted,
+    feet_w,
+    height,
+    extra,
 ):
     """References `(legs, 3)` of the foot centres: position, velocity, acceleration.
 
-    `step`: the most that the ground may rise or drop at once [m]. Footholds and lifts of `state` are brought
-    up to date with it.
+    `operators`: terrain operators (`operators.Packed`); `imagined`: obstacles that legs are to take for seen
+    [m]; `step`: the most that the ground may rise or drop at once [m]. Footholds, lifts and operators of
+    `state` are brought up to date with it, and the forces of operators `(legs, 3)` are written to `extra`.
     """
     period, duty = clock
     n = feet_w.shape[0]
@@ -74,20 +105,69 @@ def feet_reference(
                 height,
             )
             radius = model.foot_radius[leg]
+            kind, x, y = meet(state, leg, operators, imagined[leg], ground, s, x, y, radius, height)
             lean = turned(rotation_d, leans[leg])
             plane = plane_height(state.slope, position, x, y)
             aim(state, leg, ground, step, x, y, plane, radius, lean, height)
-            raise_over(state, leg, ground, s, radius, cycles[leg], height)
+            raise_over(state, leg, kind, ground, operators, imagined[leg], s, radius, cycles[leg], height)
             x, y, z = state.foothold[leg]
             table, lift = cycles[leg], state.lift[leg]
             swing_reference(
                 state.origin[leg], x, y, z, s, duration, height, table, lift, p[leg], v[leg], a[leg]
             )
-        elif state.mode[leg] == SEARCH:
-            search_reference(state.origin[leg], state.progress[leg], height, p[leg], v[leg], a[leg])
-            if is_known(ground):
-                p[leg, 0], p[leg, 1] = state.foothold[leg, 0], state.foothold[leg, 1]
+            if state.operator[leg] > 0.0:
+                side = 1.0 if model.nominal_feet[leg, 1] >= 0.0 else -1.0
+                apply_operator(
+                    state, leg, operators, s, duration, side, rotation_d, p[leg], v[leg], a[leg], extra
+                )
+        else:
+            state.operator[leg], state.reach[leg] = 0.0, 0.0
+            if state.mode[leg] == SEARCH:
+                search_reference(state.origin[leg], state.progress[leg], height, p[leg], v[leg], a[leg])
+                if is_known(ground):
+                    p[leg, 0], p[leg, 1] = state.foothold[leg, 0], state.foothold[leg, 1]
     return p, v, a
+
+
+@kernel
+def meet(state, leg, operators, imagined, ground, s, x, y, radius, height):
+    """What kind of obstacle is ahead of a swinging leg, and the wished foothold with what an operator says of
+    the landing.
+
+    A hole or a slope is answered as it is seen, early in the swing and once; how far other obstacles reach
+    into the way of the foot is seen when it is raised. What a leg imagines is answered by the first operator.
+    """
+    kind = NOTHING
+    if operators.terms.shape[0] > 0 and s < STILL_RISING and state.operator[leg] <= 0.0:
+        if imagined > 0.0:
+            state.operator[leg], state.reach[leg] = 1.0, imagined
+        else:
+            kind, size = ahead_of(ground, state.origin[leg], x, y, radius, height)
+            found = operator_for(operators.terms, kind, size) if kind == HOLE or kind == SLOPE else -1
+            if found >= 0:
+                state.operator[leg], state.reach[leg] = found + 1.0, size
+    if state.operator[leg] > 0.0:
+        farther = operators.terms[int(state.operator[leg]) - 1, LANDING] * state.reach[leg]
+        way_x, way_y = x - state.origin[leg, 0], y - state.origin[leg, 1]
+        length = math.hypot(way_x, way_y)
+        if farther != 0.0 and length > 0.0:
+            x, y = x + farther * way_x / length, y + farther * way_y / length
+    return kind, x, y
+
+
+@kernel
+def apply_operator(state, leg, operators, s, duration, side, rotation_d, p, v, a, extra):
+    """Adds the operator of a leg to the reference of its foot, and writes its force, world axes."""
+    number, origin, hold = int(state.operator[leg]) - 1, state.origin[leg], state.foothold[leg]
+    taught_in = operators.terms[number, DURATION]
+    way_x, way_y = hold[0] - origin[0], hold[1] - origin[1]
+    f_x, f_y, f_z = enhance(
+        operators.tables[number], state.reach[leg], s, duration, taught_in, way_x, way_y, p, v, a
+    )
+    c, d = rotation_d[0, 0], rotation_d[1, 0]
+    k = 1.0 / math.hypot(c, d)
+    c, d, f_y = k * c, k * d, side * f_y
+    extra[leg, 0], extra[leg, 1], extra[leg, 2] = c * f_x - d * f_y, d * f_x + c * f_y, f_z
 
 
 @kernel
@@ -108,13 +188,33 @@ def aim(state, leg, ground, step, x, y, plane, radius, lean, height):
 
 
 @kernel
-def raise_over(state, leg, ground, s, radius, table, height):
-    """Raises the swing of a leg as far as the ground on its way asks for; never lowers it again."""
+def raise_over(state, leg, kind, ground, operators, imagined, s, radius, table, height):
+    """Raises the swing of a leg as far as the ground on its way asks for; never lowers it again.
+
+    By an operator where one is for the `kind` of obstacle and for how far it reaches into the way, else by a
+    higher leg cycle.
+    """
     if s <= 0.0:
         state.lift[leg] = 1.0
-    if s < STILL_RISING:
-        x, y, z = state.foothold[leg]
-        needed = lift_needed(ground, state.origin[leg], x, y, z, radius, table, height)
+    if s >= STILL_RISING:
+        return
+    x, y, z = state.foothold[leg]
+    origin = state.origin[leg]
+    if state.operator[leg] == 0.0 and operators.terms.shape[0] > 0:
+        over = obstacle_over(ground, origin, x, y, z, radius)
+        if over > EVEN * height:
+            as_seen = BLOCK if kind == NOTHING or kind == HOLE or kind == SLOPE else kind
+            found = operator_for(operators.terms, as_seen, over)
+            state.operator[leg] = found + 1.0 if found >= 0 else UNTAUGHT
+    number = int(state.operator[leg]) - 1
+    if number >= 0:
+        lift, over = state.lift[leg], operators.tables[number]
+        needed = reach_needed(ground, origin, x, y, z, radius, lift, table, over, height)
+        state.reach[leg] = max(state.reach[leg], needed)
+    else:
+        needed = lift_needed(ground, origin, x, y, z, radius, table, height)
+        if imagined > 0.0:
+            needed = 1.0 + imagined / (table[:, 3].max() * height)
         state.lift[leg] = max(state.lift[leg], needed)
 
 

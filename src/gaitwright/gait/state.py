@@ -41,6 +41,10 @@ class GaitState(NamedTuple):
     """Coefficient of friction that a foot may count on (`grip`); 0: nothing was felt yet."""
     lift: Float[np.ndarray, "legs"]
     """Factor by which this swing is raised to clear the ground."""
+    operator: Float[np.ndarray, "legs"]
+    """Number of the terrain operator of this swing, from 1 on; 0: nothing is ahead, −1: none is for it."""
+    reach: Float[np.ndarray, "legs"]
+    """Metres of obstacle that it is applied to."""
     origin: Float[np.ndarray, "legs 3"]
     """Where the swing, or the search, began [m]."""
     contact: Float[np.ndarray, "legs 3"]
@@ -86,6 +90,8 @@ def standing(feet_w: np.ndarray, position_w: np.ndarray, yaw: float, phase: floa
         offset=np.zeros(n),
         grip=np.zeros(n),
         lift=np.ones(n),
+        operator=np.zeros(n),
+        reach=np.zeros(n),
         origin=feet_w.copy(),
         contact=feet_w.copy(),
         foothold=feet_w.copy(),

@@ -19,6 +19,7 @@ from gaitwright.skillbook.history import (
     names_told,
     that_count,
 )
+from gaitwright.skillbook.operator_notes import OperatorNotes
 from gaitwright.skillbook.profile_notes import ProfileNotes, name_of
 
 
@@ -47,15 +48,17 @@ def merge(ours: Skillbook, theirs: Skillbook, base: Skillbook | None = None) -> 
     Where both were told different things at the very same moment ours stays. Whatever either was told since
     then and does by itself, the joined book does too, or a conflict says what it does instead. `base` is the
     book that both come from; it is found without being named, and checked where it is. Of each skill the
-    torque profiles are ours, or theirs where ours has none. Raises `WrongUse` where `base` is no such book,
+    torque profiles are ours, or theirs where ours has none; their terrain operators of other names come
+    behind ours. Raises `WrongUse` where `base` is no such book,
     or for a book whose rules rest on no lessons that can be told.
     """
     merged = told_both(ours, theirs, base)
-    profiles = profiles_of_both(ours, theirs)
-    if profiles == ours.profiles:
+    profiles, operators = profiles_of_both(ours, theirs), operators_of_both(ours, theirs)
+    if profiles == ours.profiles and operators == ours.operators:
         return merged
     ancestors = with_ancestor(merged.book.ancestors, theirs)
-    return replace(merged, book=replace(merged.book, profiles=profiles, ancestors=ancestors))
+    book = replace(merged.book, profiles=profiles, operators=operators, ancestors=ancestors)
+    return replace(merged, book=book)
 
 
 def told_both(ours: Skillbook, theirs: Skillbook, base: Skillbook | None) -> Merged:
@@ -223,6 +226,14 @@ def profiles_of_both(ours: Skillbook, theirs: Skillbook) -> tuple[ProfileNotes, 
     known = {profile.skill for profile in ours.profiles}
     others = [profile for profile in theirs.profiles if profile.skill not in known]
     return tuple(sorted((*ours.profiles, *others), key=name_of))
+
+
+def operators_of_both(ours: Skillbook, theirs: Skillbook) -> tuple[OperatorNotes, ...]:
+    """Our terrain operators, and behind them theirs of other names, where both are of one robot."""
+    if ours.robot != theirs.robot:
+        return ours.operators
+    known = {operator.name for operator in ours.operators}
+    return (*ours.operators, *(operator for operator in theirs.operators if operator.name not in known))
 
 
 def with_ancestor(ancestors: tuple[Ancestor, ...], book: Skillbook) -> tuple[Ancestor, ...]:

@@ -15,6 +15,7 @@ from gaitwright.skillbook.entries import (
     ancestor_entry,
     ancestors_of,
     checked,
+    operator_entries,
     profile_entries,
     rulebook_entry,
     rulebook_of,
@@ -22,6 +23,8 @@ from gaitwright.skillbook.entries import (
     steps_of,
 )
 from gaitwright.skillbook.history import Ancestor, Step, all_told, forgotten
+from gaitwright.skillbook.operator_notes import OperatorNotes
+from gaitwright.skillbook.operator_notes import fault_in as fault_in_operators
 from gaitwright.skillbook.profile_notes import ProfileNotes, fault_in
 from gaitwright.skillbook.pupil_notes import PupilNotes, actions_in, is_sound
 
@@ -44,6 +47,8 @@ class Skillbook:
     pupil: PupilNotes | None = None
     profiles: tuple[ProfileNotes, ...] = ()
     """Torque profiles, in the order of their names."""
+    operators: tuple[OperatorNotes, ...] = ()
+    """Terrain operators, in the order in which they are tried."""
 
     @staticmethod
     def new(start: Forest | Rulebook, robot: str = "", name: str = "", seed: int = 0) -> "Skillbook":
@@ -87,7 +92,8 @@ def entry_of(book: Skillbook) -> File:
     rulebook = rulebook_entry(book.rulebook)
     steps = tuple(step_entry(step) for step in book.steps)
     ancestors = tuple(ancestor_entry(a) for a in book.ancestors)
-    return File(about_of(book), rulebook, steps, ancestors, book.pupil, profile_entries(book.profiles))
+    profiles, operators = profile_entries(book.profiles), operator_entries(book.operators)
+    return File(about_of(book), rulebook, steps, ancestors, book.pupil, profiles, operators)
 
 
 def about_of(book: Skillbook) -> About:
@@ -95,7 +101,7 @@ def about_of(book: Skillbook) -> About:
     rules = book.rulebook
     counts = (len(book.steps), len(rules.rules), len(rules.preferences), len(rules.forest.trees))
     own = (book.name, book.robot, book.made_by, book.seed, rules.lessons)
-    others = len(book.ancestors), int(book.pupil is not None), len(book.profiles)
+    others = len(book.ancestors), int(book.pupil is not None), len(book.profiles), len(book.operators)
     return checked(About(*own, *counts, *others), About)
 
 
@@ -105,8 +111,10 @@ def book_of(entry: File, source: str) -> Skillbook:
     steps = steps_of(entry.steps, rulebook.events, source)
     about, ancestors = entry.about, ancestors_of(entry.ancestors)
     check_notes(entry.pupil, steps, source)
-    check_profiles(entry.profiles, source)
-    own = (about.made_by, about.seed, ancestors, entry.pupil, entry.profiles)
+    for fault in (fault_in(entry.profiles), fault_in_operators(entry.operators)):
+        if fault:
+            raise BadFile(f"{source}: {fault}")
+    own = (about.made_by, about.seed, ancestors, entry.pupil, entry.profiles, entry.operators)
     return Skillbook(about.name, about.robot, rulebook, steps, *own)
 
 
@@ -121,13 +129,6 @@ def check_notes(notes: PupilNotes | None, steps: tuple[Step, ...], source: str) 
     actions = len({one.action for one in told})
     if notes.heard > len(told) or not is_sound(notes) or (told and actions_in(notes) > actions):
         raise BadFile(f"{source}: its pupil has learned from other lessons than it holds")
-
-
-def check_profiles(profiles: tuple[ProfileNotes, ...], source: str) -> None:
-    """Raises `BadFile` where one of a book's profiles is damaged, or stands in it twice."""
-    fault = fault_in(profiles)
-    if fault:
-        raise BadFile(f"{source}: {fault}")
 
 
 def _begun(rulebook: Rulebook, note: str) -> Step:

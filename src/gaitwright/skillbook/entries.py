@@ -28,6 +28,8 @@ from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.rules import Event, Rulebook
 from gaitwright.knowledge.told import Given, Told
 from gaitwright.skillbook.history import Ancestor, How, Step
+from gaitwright.skillbook.operator_notes import OperatorNotes
+from gaitwright.skillbook.operator_notes import fault_in as fault_in_operators
 from gaitwright.skillbook.profile_notes import ProfileNotes, fault_in, name_of
 from gaitwright.skillbook.pupil_notes import PupilNotes
 
@@ -51,6 +53,7 @@ class About(Strict, frozen=True):
     ancestors: Place = 0
     pupil: Annotated[int, Meta(ge=0, le=1)] = 0
     profiles: Place = 0
+    operators: Place = 0
 
 
 class AncestorEntry(Strict, frozen=True):
@@ -120,6 +123,8 @@ class File(Strict, frozen=True):
     pupil: PupilNotes | None = None
     profiles: tuple[ProfileNotes, ...] = ()
     """In the order of their names."""
+    operators: tuple[OperatorNotes, ...] = ()
+    """In the order in which they are tried."""
 
 
 ENCODER = msgspec.json.Encoder(order="deterministic")
@@ -183,6 +188,15 @@ def profile_entries(profiles: Iterable[ProfileNotes]) -> tuple[ProfileNotes, ...
     if fault:
         raise WrongUse(f"a skillbook cannot hold this: {fault}")
     return ordered
+
+
+def operator_entries(operators: Iterable[OperatorNotes]) -> tuple[OperatorNotes, ...]:
+    """Terrain operators, checked against the limits of a file."""
+    entries = tuple(checked(operator, OperatorNotes) for operator in operators)
+    fault = fault_in_operators(entries)
+    if fault:
+        raise WrongUse(f"a skillbook cannot hold this: {fault}")
+    return entries
 
 
 # --- back ------------------------------------------------------------------------------------------

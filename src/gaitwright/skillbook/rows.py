@@ -26,6 +26,7 @@ from gaitwright.skillbook.entries import (
     encoded,
     rulebook_entry,
 )
+from gaitwright.skillbook.operator_notes import OperatorNotes
 from gaitwright.skillbook.profile_notes import ProfileNotes, name_of
 from gaitwright.skillbook.pupil_notes import PupilNotes
 
@@ -40,6 +41,7 @@ KEYS = {
     "events": ("step", "place"),
     "pupil": ("place",),
     "profiles": ("name",),
+    "operators": ("place",),
 }
 """The key columns of each table, in an order in which rows can be written."""
 
@@ -138,6 +140,22 @@ def change_profiles(
     put(db, profile_rows(profile for name, profile in now.items() if was.get(name) != profile))
 
 
+def operator_rows(operators: Iterable[OperatorNotes]) -> Rows:
+    """The rows of terrain operators, in their order."""
+    return {("operators", (place,)): encoded(operator) for place, operator in enumerate(operators)}
+
+
+def change_operators(
+    db: sqlite3.Connection, before: Sequence[OperatorNotes], after: Sequence[OperatorNotes]
+) -> None:
+    """Writes what differs between the terrain operators of two books."""
+    if before is after:
+        return
+    was, now = operator_rows(before), operator_rows(after)
+    remove(db, was.keys() - now.keys())
+    put(db, {key: content for key, content in now.items() if was.get(key) != content})
+
+
 def step_rows(place: int, step: StepEntry, events: Iterable[EventEntry]) -> Rows:
     """The rows of one step and what it moved."""
     rows: Rows = {("steps", (place,)): encoded(step)}
@@ -159,7 +177,8 @@ def read(db: sqlite3.Connection, source: str) -> File:
     notes = _row_of(_read(db, "pupil", PupilNotes, source), about.pupil, "pupils", source)
     rulebook = BookEntry(FORMAT, trees, rules, wishes, events, about.lessons)
     profiles = _profiles(_read(db, "profiles", ProfileNotes, source), about.profiles, source)
-    return File(about, rulebook, steps, ancestors, notes[0] if notes else None, profiles)
+    operators = _row_of(_read(db, "operators", OperatorNotes, source), about.operators, "operators", source)
+    return File(about, rulebook, steps, ancestors, notes[0] if notes else None, profiles, operators)
 
 
 def _read(db: sqlite3.Connection, table: str, kind: type[T], source: str) -> dict[tuple, T]:

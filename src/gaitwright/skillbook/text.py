@@ -39,6 +39,7 @@ from gaitwright.skillbook.entries import (
     encoded,
 )
 from gaitwright.skillbook.history import How
+from gaitwright.skillbook.operator_notes import OperatorNotes
 from gaitwright.skillbook.profile_notes import ProfileNotes, name_of
 from gaitwright.skillbook.pupil_notes import PupilNotes
 
@@ -101,6 +102,7 @@ KINDS: dict[str, type] = {
     "event": EventEntry,
     "pupil": PupilNotes,
     "profile": ProfileNotes,
+    "operator": OperatorNotes,
 }
 
 
@@ -132,6 +134,8 @@ def _lines(entry: File) -> Iterator[tuple[str, Any]]:
         yield "pupil", entry.pupil
     for profile in entry.profiles:
         yield "profile", profile
+    for operator in entry.operators:
+        yield "operator", operator
 
 
 def _rule_lines(rule: RuleEntry, trees: list[str]) -> Iterator[tuple[str, Any]]:
@@ -167,6 +171,7 @@ class Draft:
     steps: list[tuple[StepLine, list[EventEntry]]] = field(default_factory=list)
     pupils: list[PupilNotes] = field(default_factory=list)
     profiles: list[ProfileNotes] = field(default_factory=list)
+    operators: list[OperatorNotes] = field(default_factory=list)
 
 
 def read(content: str, source: str) -> File:
@@ -226,6 +231,7 @@ def _take(draft: Draft, line: str) -> None:
             "wish": draft.wishes,
             "pupil": draft.pupils,
             "profile": draft.profiles,
+            "operator": draft.operators,
         }
         lists[word].append(value)
 
@@ -252,10 +258,12 @@ def _file(draft: Draft, source: str) -> File:
         len(ancestors),
         len(draft.pupils),
         len(profiles),
+        len(draft.operators),
     )
     about = About(b.name, b.robot, b.made_by, b.seed, b.lessons, *counts)
     rulebook = BookEntry(FORMAT, trees, rules, wishes, events, b.lessons)
-    return File(about, rulebook, steps, ancestors, draft.pupils[0] if draft.pupils else None, profiles)
+    pupil, operators = draft.pupils[0] if draft.pupils else None, tuple(draft.operators)
+    return File(about, rulebook, steps, ancestors, pupil, profiles, operators)
 
 
 def _rule(rule: DraftRule, trees: list[str], source: str) -> RuleEntry:

@@ -12,8 +12,16 @@ from gaitwright.knowledge.rules import Event, Rulebook
 from gaitwright.knowledge.told import Told
 from gaitwright.skillbook import rows
 from gaitwright.skillbook.book import Skillbook, about_of, book_of
-from gaitwright.skillbook.entries import checked, encoded, event_entries, profile_entries, step_entry
+from gaitwright.skillbook.entries import (
+    checked,
+    encoded,
+    event_entries,
+    operator_entries,
+    profile_entries,
+    step_entry,
+)
 from gaitwright.skillbook.history import Step, forgotten, names_told
+from gaitwright.skillbook.operator_notes import OperatorNotes
 from gaitwright.skillbook.profile_notes import ProfileNotes
 from gaitwright.skillbook.pupil_notes import PupilNotes
 from gaitwright.skillbook.schema import MAX_BYTES, connected, located, migrate, number, sentences, version_of
@@ -72,6 +80,11 @@ class Ledger:
         hold them."""
         return self._store(replace(self.book, profiles=profile_entries(profiles)), {})
 
+    def keep_operators(self, operators: Iterable[OperatorNotes]) -> Skillbook:
+        """Stores terrain operators in place of all that were in the book, in the order in which they are
+        tried. Raises `WrongUse` where no file can hold them."""
+        return self._store(replace(self.book, operators=operator_entries(operators)), {})
+
     def _moved(self, events: tuple[Event, ...], lessons: int = 0) -> Rulebook:
         """The rules as they are in the file, with more events and lessons behind them."""
         now = self.book.rulebook
@@ -108,6 +121,7 @@ class Ledger:
             try:
                 rows.change(self._db, self.book.rulebook, book.rulebook)
                 rows.change_profiles(self._db, self.book.profiles, book.profiles)
+                rows.change_operators(self._db, self.book.operators, book.operators)
                 rows.put(self._db, added)
                 self._db.execute("COMMIT")
             except BaseException:  # an interrupt too: what was not acknowledged must not be half there

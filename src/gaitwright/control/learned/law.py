@@ -37,6 +37,7 @@ from gaitwright.numerics.geometry import (
 )
 from gaitwright.numerics.matrices import apply, apply_t, write
 from gaitwright.numerics.packing import Layout
+from gaitwright.signals import MotionTarget
 
 TANGENT = 0.75
 """Share of the friction cone that feet use."""
@@ -53,6 +54,7 @@ class Played(NamedTuple):
     """Share of the torque that is the profile's own: 1 − Σ|τ − τ_taught| / Σ|τ|."""
 
 
+extra_force_of = MotionTarget.layout.field("extra_force_w")
 LAYOUT = Layout.of(Played)
 played_of = LAYOUT.views(Played)
 """The `Played` in a row, as views; for kernels too."""
@@ -101,6 +103,7 @@ def play(packed, inertia, maps, taught, seen, target, out):
     `Sensed` and a `MotionTarget`.
     """
     moment, profile, result = moment_between(seen, target), row_of(taught), played_of(out)
+    extra = extra_force_of(target)
     R = rotation(moment.orientation)
     G = ground_frame(moment, R)
     wanted = wanted_wrench(packed, inertia, profile, moment, R, G)
@@ -115,14 +118,15 @@ def play(packed, inertia, maps, taught, seen, target, out):
     tau_max, _, _ = scales(packed)
     off, whole, total, rates = 0.0, 0.0, 0.0, np.empty(3)
     for k in range(n):
-        force = vec(result.forces_w[k])
+        force, moved = vec(result.forces_w[k]), vec(extra[k])
         pull(packed, moment, k, R, vec(profile.lag[k]), vec(profile.lag_rate[k]), result.tau[k], rates)
         for j in range(3):
-            asked = profile.free[k, j] - dot(vec(columns[k, j]), force) + result.tau[k, j]
+            more = dot(vec(columns[k, j]), moved)
+            asked = profile.free[k, j] + more - dot(vec(columns[k, j]), force) + result.tau[k, j]
             total += asked
             tau = min(max(asked, -tau_max[k, j]), tau_max[k, j])
             result.tau[k, j] = tau
-            off += abs(tau - profile.tau[k, j])
+            off += abs(tau - profile.tau[k, j] - more)
             whole += abs(tau)
     result.share[0] = 1.0 - off / max(whole, 1e-9)
     if not math.isfinite(total):
@@ -247,3 +251,15 @@ def note(packed, seen, asked, tau, forces_w, out):
     row.pose[0], row.pose[1], row.pose[2] = height / down, math.atan2(up[1], up[2]), pitch
     write(row.velocity, 0, times_t(G, vec(moment.velocity)))
     write(row.omega, 0, times_t(G, omega_w))
+
+
+@kernel
+def columns_in_ground(packed, seen, asked, leg):
+    """Columns of the Jacobian of a leg's contact point, one a row `(3, 3)`, ground frame [m]."""
+    moment, out = moment_between(seen, asked), np.empty((3, 3))
+    R = rotation(moment.orientation)
+    G = ground_frame(moment, R)
+    foot = foot_now(packed, moment, leg, R)
+    for j in range(3):
+        write(out[j], 0, times_t(G, foot.columns[j]))
+    return out

@@ -53,6 +53,9 @@ class Climber:
             feet_acceleration_w=rate_of_rate(made.feet_w),
             q=made.q[1],
             command=np.array([0.0 if over else call.velocity[0], 0.0, 0.0]),
+            operator=np.zeros(len(stance)),
+            reach=np.zeros(len(stance)),
+            extra_force_w=np.zeros((len(stance), 3)),
         )
         return target, time
 
