@@ -204,6 +204,22 @@ def ramp(degrees: float, scale: float, _: np.random.Generator) -> Layout:
     return Layout(HeightField(bounds[0], bounds[1], grid, heights), (), bounds)
 
 
+# --- boxes -----------------------------------------------------------------------------------------
+BOXES, BOX_AT, BOX_LONG, BETWEEN = 2, 1.2, 0.35, 0.65
+"""How many, x where the first begins, their length along x, ground between them [m]."""
+
+
+def boxes(height: float, scale: float, _: np.random.Generator) -> Layout:
+    """Boxes across the way, as wide as the field: a foot can stand on them, or be lifted over them."""
+    x_min, y_min, x_max, y_max = _bounds(scale)
+    centres = (BOX_AT + BOX_LONG / 2 + k * (BOX_LONG + BETWEEN) for k in range(BOXES))
+    return Layout(
+        Flat(),
+        tuple(Box(x * scale, 0.0, 0.0, BOX_LONG * scale, y_max - y_min, height * scale) for x in centres),
+        (x_min, y_min, x_max, y_max),
+    )
+
+
 # --- gaps ----------------------------------------------------------------------------------------
 GAPS, GAP_AT, ISLAND, DEEP = 3, 1.2, 0.8, 0.5
 """How many, x where the first begins, ground between them, depth [m]."""
@@ -232,5 +248,6 @@ BUILDERS: dict[str, Callable[[float, float, np.random.Generator], Layout]] = {
     "stairway": stairway,
     "ramp": ramp,
     "gap": gap,
+    "boxes": boxes,
 }
 """One builder per name of `scenes_list.OFFERS`."""

@@ -32,6 +32,7 @@ OFFERS = {
     ),
     "ramp": Offer("a ramp up, a platform, a ramp down", "an angle in degrees", 20.0, 1.0, 45.0),
     "gap": Offer("three gaps in the ground, half a metre deep", "a width in metres", 0.2, 0.01, 1.0),
+    "boxes": Offer("two boxes across the way", "their height in metres", 0.08, 0.01, 0.5),
 }
 
 
