@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from gaitwright.bench.evidence.played_without import LeftOut, leaving_out
 from gaitwright.bench.witness import Change, Seen, Witness
 from gaitwright.control.learned.profile import Profile
 from gaitwright.control.numerical import Method
@@ -81,6 +82,8 @@ class Trial:
     """Whether it is let down at the end."""
     sensing: Sensing = "true"
     """Whether it is told its state, or estimates it."""
+    without: LeftOut | None = None
+    """What the learned controller is to do without."""
 
     @property
     def is_imperfect(self) -> bool:
@@ -189,8 +192,12 @@ def brain_for(trial: Trial, robot: Robot, scene: Scene) -> Brain:
     brain = Brain.of(robot, scene, chooser, DT, trial.method, sensing=trial.sensing)
     if "learned" not in (trial.driver, trial.then and trial.then.driver):
         return brain
-    skills = {trial.skill, trial.then.skill} if trial.then else {trial.skill}
-    return brain.with_profiles({skill: (profile_of(trial.robot, skill),) for skill in skills})
+    first = profile_of(trial.robot, trial.skill, trial.speed, trial.turn)
+    profiles = {trial.skill: (first,)}
+    if trial.then and trial.then.skill != trial.skill:
+        profiles[trial.then.skill] = (profile_of(trial.robot, trial.then.skill),)
+    brain = brain.with_profiles(profiles)
+    return leaving_out(brain, trial.without) if trial.without else brain
 
 
 def second_call(trial: Trial, robot: Robot) -> SkillCall:
@@ -203,9 +210,9 @@ def second_call(trial: Trial, robot: Robot) -> SkillCall:
 
 
 @lru_cache
-def profile_of(asked: str, skill: str) -> Profile:
-    """The profile of a skill as it is meant, taught once in a process."""
-    return taught(robot_named(asked), skill)
+def profile_of(asked: str, skill: str, speed: float | None = None, turn: float | None = None) -> Profile:
+    """The profile of a skill at a velocity, or as it is meant, taught once in a process."""
+    return taught(robot_named(asked), skill, speed, turn)
 
 
 @dataclass(frozen=True)

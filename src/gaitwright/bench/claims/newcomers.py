@@ -3,10 +3,10 @@
 from collections.abc import Iterator
 from dataclasses import replace
 
-from gaitwright.bench.claims.learned import both, handed_over, survived
 from gaitwright.bench.claims.missions import models_folder
 from gaitwright.bench.claims.strangers import why_refused
 from gaitwright.bench.context import Context
+from gaitwright.bench.evidence.beside_teacher import both, handed_over, survived
 from gaitwright.bench.measurement import Figure, count
 from gaitwright.bench.strangers.robot_files import RobotFile, robot_files
 from gaitwright.bench.trial import Push
@@ -50,7 +50,7 @@ def one_robot(context: Context, file: RobotFile) -> tuple[Figure, bool]:
     for skill in SKILLS:
         for k, seed in enumerate(context.seeds(STARTS)):
             push = Push(PUSH, 90.0 * (-1) ** k, 0.5 * SECONDS)
-            trials.append(replace(handed_over(skill, "learned", seed, SECONDS), robot=path, push=push))
+            trials.append(replace(handed_over(skill, seed, SECONDS), robot=path, push=push))
     found = both(context, file.name, trials)
     good = sum(outcome.kept_up for outcome in found["learned"])
     what = f"{short(file.name)}: trot and walk, {SECONDS:g} s, pushed"

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from dataclasses import replace
 
-from gaitwright.bench.claims.learned import both, handed_over, survived
 from gaitwright.bench.context import Context
+from gaitwright.bench.evidence.beside_teacher import both, handed_over, survived
 from gaitwright.bench.measurement import Figure
 from gaitwright.bench.trial import Push
 from gaitwright.plant.imperfections import NOISE
@@ -35,7 +35,7 @@ def measure(context: Context) -> Iterator[Figure]:
     for skill, scene, push, least in ROWS[:2] if context.quick else ROWS:
         trials = [
             replace(
-                handed_over(skill, "learned", seed, seconds, scene),
+                handed_over(skill, seed, seconds, scene),
                 imperfections=NOISE["legged-gym"],
                 sensing="estimated",
                 push=push,
