@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from gaitwright.control.learned.profile import Profile
+from gaitwright.gait.coordinator import Coordinator
 from gaitwright.gait.led import Led
 from gaitwright.ground.scene import load_scene
 from gaitwright.learning.profile_lessons import taught
@@ -93,7 +94,7 @@ def test_another_coordinator_or_controller_is_asked_itself() -> None:
     brain = brain.with_profiles({"trot": (profile(),)})
     assert brain.driving.one_call is not None
 
-    class Other(type(brain.coordinator)):
+    class Other(Coordinator):
         """Might move the legs in its own way."""
 
     other = replace(brain, coordinator=Other(DOG, DT))

@@ -227,8 +227,9 @@ def plan_and_choose(brain: Brain, mind: Mind, sensed: Sensed, ground: GroundMap)
         scan = brain.perception.look(ground, sensed) if route.path else None
         route, travelled = brain.navigator.plan(route, sensed, ground, scan, travelled)
         looked_at = now
-    event = route.arrived != mind.route.arrived or len(route.path) != len(mind.route.path)
+    old = mind.route
+    event = route is not old and (route.arrived != old.arrived or len(route.path) != len(old.path))
     if not event and now - mind.chosen_at < mind.call.gait.period - 1e-9:
-        return mind if route is mind.route else mind._replace(route=route, looked_at=looked_at), travelled
+        return mind if route is old else mind._replace(route=route, looked_at=looked_at), travelled
     call = brain.chosen(mind.mission, route, sensed, mind.call, ground)
     return mind._replace(route=route, call=call, looked_at=looked_at, chosen_at=now), travelled

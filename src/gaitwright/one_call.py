@@ -26,6 +26,8 @@ from gaitwright.numerics.parts import part
 from gaitwright.signals import Gait, GroundMap, MotionTarget, MotorCommand, Sensed, SkillCall
 
 TARGET, PLAYED = MotionTarget.layout.length, LAYOUT.length
+UNREAD = ()
+"""Of a gait that was not met before."""
 
 
 class Settings(NamedTuple):
@@ -108,7 +110,9 @@ class OneCall:
         """One tick; `None` where there is no profile of the gait that the legs would be in."""
         coordinator = self.coordinator
         gait = coordinator.possible(memory, call, sensed)
-        taught = self.known[gait] if gait in self.known else self.read(gait)
+        taught = self.known.get(gait, UNREAD)
+        if taught is UNREAD:
+            taught = self.read(gait)
         if taught is None:
             return None
         (first, second, third, size), (grid, rise, friction) = self.places, coordinator.underfoot(ground)
