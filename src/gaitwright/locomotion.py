@@ -6,16 +6,17 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from time import perf_counter_ns
 from typing import NamedTuple
 
-from gaitwright.control.handover import Handover, begun, softened
+from gaitwright.control.handover import begun, softened
 from gaitwright.control.kinematic import KinematicController
 from gaitwright.control.learned.controller import LearnedController
 from gaitwright.control.learned.profile import Profile
 from gaitwright.control.numerical import Method, NumericalController
-from gaitwright.control.takeover import HYBRID, LEARNED, UNDECIDED, Drive, Takeover
-from gaitwright.errors import unknown
+from gaitwright.control.takeover import LEARNED, Takeover
+from gaitwright.driving import Driving, Memories
 from gaitwright.gait.coordinator import Coordinator
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle
 from gaitwright.gait.operators import Operator
@@ -26,10 +27,9 @@ from gaitwright.navigation.navigator import Navigator
 from gaitwright.perception.estimated_state import EstimatedState, Sensing
 from gaitwright.perception.fault_words import Fault
 from gaitwright.perception.known_ground import KnownGround
-from gaitwright.perception.watch import Watch, WatchMemory
+from gaitwright.perception.watch import Watch
 from gaitwright.programmes import Programmed
 from gaitwright.signals import (
-    Gait,
     GroundMap,
     Measured,
     Mission,
@@ -103,9 +103,7 @@ class Brain:
 
     def controller(self, driver: str) -> Controller:
         """Who computes the torques. Raises `WrongUse` for a driver that there is not."""
-        if driver not in self.controllers:
-            raise unknown("driver", driver, self.controllers)
-        return self.controllers[driver]
+        return self.driving.controller(driver)
 
     def with_cycle(self, skill: str, cycle: LegCycle) -> "Brain":
         """The same brain with feet that follow a leg cycle in a skill, whoever computes the torques."""
@@ -134,6 +132,11 @@ class Brain:
         assert isinstance(self.coordinator, Coordinator), "a planned climb has no swings to edit"
         return replace(self, coordinator=replace(self.coordinator, operators=tuple(operators)))
 
+    @cached_property
+    def driving(self) -> Driving:
+        """Gait and control of this brain."""
+        return Driving(self.coordinator, self.controllers, self.takeover)
+
     def begin(
         self, mission: Mission, measured: Measured, phase: float = 0.0, before: "Mind | None" = None
     ) -> "Mind":
@@ -157,32 +160,6 @@ class Brain:
         """The skill for what lies ahead, with the mission's driver where it names none."""
         call = self.chooser.choose(route, sensed, now, ground)
         return call if call.driver else replace(call, driver=mission.driver)
-
-    def driver_of(
-        self, call: SkillCall, gait: Gait, target: MotionTarget, time: float, before: "Memories"
-    ) -> Drive:
-        """Who drives a call, in a hybrid; else nothing is decided."""
-        if self.takeover is None or call.driver != HYBRID:
-            return UNDECIDED
-        return self.takeover.decide(call, gait, target, time, before.drive, before.control)
-
-
-class Memories(NamedTuple):
-    """What each stage handed back for the next lap."""
-
-    perception: Memory
-    navigator: Memory
-    gait: Memory
-    control: Memory = None
-    controller: Controller | None = None
-    """Whose memory `control` is: another one begins anew."""
-    watch: WatchMemory | None = None
-    command: MotorCommand | None = None
-    """The last one: another driver goes on from it."""
-    change: Handover | None = None
-    """The change of driver that is under way."""
-    drive: Drive = UNDECIDED
-    """Who drives, in a hybrid."""
 
 
 class Mind(NamedTuple):
@@ -212,7 +189,7 @@ class Lap(NamedTuple):
     target: MotionTarget
     command: MotorCommand
     took: tuple[float, float]
-    """Time for the whole tick and for the controller alone [µs]."""
+    """Time for the whole tick, and for the controller; where profiles are played, for the gait too [µs]."""
     stopped_because: str | None = None
     """Why the run ends with this lap."""
     arrived: bool = False
@@ -234,15 +211,9 @@ def think(brain: Brain, mind: Mind, measured: Measured) -> tuple[Lap, Mind]:
     if watch is not None:
         sensed, watched = watch.check(measured, sensed, watched)
     mind, travelled = plan_and_choose(brain, mind, sensed, ground)
-    call = mind.call
-    target, gait = brain.coordinator.move(mind.memories.gait, call, sensed, ground)
-    handed = perf_counter_ns()
-    before, used = mind.memories, with_gait_in_use(call, gait)
-    drive = brain.driver_of(call, used.gait, target, sensed.time, before)
-    call = drive.call or call
-    controller = brain.controller(call.driver)
-    own = before.control if before.controller is controller else None
-    command, control = controller.command(target, sensed, own, used, ground)
+    before = mind.memories
+    driven = brain.driving.tick(before, mind.call, sensed, ground)
+    call, target, gait, drive, controller, command, control, handed = driven
     change = before.change
     if before.controller is not controller:
         change = begun(before.command, command, sensed.time)
@@ -257,12 +228,6 @@ def think(brain: Brain, mind: Mind, measured: Measured) -> tuple[Lap, Mind]:
     return lap, Mind(mind.mission, ground, mind.route, mind.call, memories, mind.looked_at, mind.chosen_at)
 
 
-def with_gait_in_use(call: SkillCall, memory: Memory) -> SkillCall:
-    """The call with the gait that the legs are in: the coordinator may hold an older one for a while."""
-    used = getattr(memory, "gait", None)
-    return call if used is None or used is call.gait else replace(call, gait=used)
-
-
 def plan_and_choose(brain: Brain, mind: Mind, sensed: Sensed, ground: GroundMap) -> tuple[Mind, Memory]:
     """The slower stages: the navigator looks a few times a second, the chooser at every cycle and event."""
     now, route, looked_at, travelled = sensed.time, mind.route, mind.looked_at, mind.memories.navigator
@@ -270,8 +235,9 @@ def plan_and_choose(brain: Brain, mind: Mind, sensed: Sensed, ground: GroundMap)
         scan = brain.perception.look(ground, sensed) if route.path else None
         route, travelled = brain.navigator.plan(route, sensed, ground, scan, travelled)
         looked_at = now
-    event = route.arrived != mind.route.arrived or len(route.path) != len(mind.route.path)
+    old = mind.route
+    event = route is not old and (route.arrived != old.arrived or len(route.path) != len(old.path))
     if not event and now - mind.chosen_at < mind.call.gait.period - 1e-9:
-        return mind if route is mind.route else mind._replace(route=route, looked_at=looked_at), travelled
+        return mind if route is old else mind._replace(route=route, looked_at=looked_at), travelled
     call = brain.chosen(mind.mission, route, sensed, mind.call, ground)
     return mind._replace(route=route, call=call, looked_at=looked_at, chosen_at=now), travelled

@@ -183,6 +183,10 @@ class Gait:
     offsets: tuple[float, ...]
     """Relative phases, one per leg."""
 
+    def __hash__(self) -> int:
+        """Of the name alone, which Python keeps: what is known of a gait is looked up at every tick."""
+        return hash(self.name)
+
 
 @dataclass(frozen=True, slots=True)
 class SkillCall:

@@ -13,7 +13,7 @@ import numpy as np
 
 from gaitwright.control.joint_stops import braking, fastest, room
 from gaitwright.dynamics.joint_inertia import joint_inertias
-from gaitwright.model.leg import combined, foot_and_columns, leg_at, leg_turns, solve_columns
+from gaitwright.model.leg import combined, posed, solve_columns
 from gaitwright.model.robot import LAYOUT, damping_of, friction_of, scales
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import add, cross, rotation, scale, sub, times, times_t, vec
@@ -54,7 +54,8 @@ def steering(packed, moment):
     damping, friction, rates = damping_of(packed), friction_of(packed), np.empty(3)
     out, R = np.empty(moment.q.shape), rotation(moment.orientation)
     for k in range(out.shape[0]):
-        pull(packed, moment, k, R, NO_LAG, NO_LAG, out[k], rates)
+        now = posed(packed, moment.q[k], k)
+        pull(packed, now, moment, k, R, NO_LAG, NO_LAG, out[k], rates)
         for j in range(3):
             out[k, j] += damping[k, j] * rates[j]
             out[k, j] += friction[k, j] * min(max(rates[j] / CREEP, -1.0), 1.0)
@@ -62,16 +63,17 @@ def steering(packed, moment):
 
 
 @kernel
-def pull(packed, moment, k, R, lag, lag_rate, torques, rates):
+def pull(packed, posed_leg, moment, k, R, lag, lag_rate, torques, rates):
     """Writes the torques that pull the joints of leg k to where its foot should be [N·m], and the rates that
     are asked of them.
 
     In the air: to the foot's reference, from the base as it is. On the ground: from the foot where it is, to
-    the base as it should be. `lag`, `lag_rate`: how far off it may be, `R`: orientation of the base.
+    the base as it should be. `posed_leg`: the `Posed` of the leg, `lag`, `lag_rate`: how far off it may be,
+    `R`: orientation of the base.
     """
     tau_max, weight, height = scales(packed)
     w0, q_min, q_max = packed[-1], q_min_of(packed), q_max_of(packed)
-    lacks = stretch(packed, moment, k, R)
+    lacks = stretch(posed_leg, moment, k, R)
     for j in range(3):
         q, now, inertia = moment.q[k, j], moment.qd[k, j], lacks.inertia[j]
         low, high = room(q_min[k, j], q_max[k, j])
@@ -92,11 +94,10 @@ def pull(packed, moment, k, R, lag, lag_rate, torques, rates):
 
 
 @kernel
-def stretch(packed, moment, k, R):
-    """The `Stretch` of leg k; `R`: orientation of the base."""
-    leg = leg_at(packed, k)
-    turns, rates = leg_turns(moment.q[k], leg.sign), vec(moment.qd[k])
-    foot, c1, c2, c3 = foot_and_columns(turns, leg.offset, leg.sign)
+def stretch(posed_leg, moment, k, R):
+    """The `Stretch` of leg k, which is `posed_leg`; `R`: orientation of the base."""
+    leg, turns, foot, (c1, c2, c3) = posed_leg
+    rates = vec(moment.qd[k])
     at, position = add(leg.hip, apply(leg.frame, foot)), vec(moment.position)
     if moment.stance[k]:
         held = add(position, times(R, at))

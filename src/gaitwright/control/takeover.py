@@ -50,10 +50,16 @@ class Takeover:
     ) -> Drive:
         """Who drives now. `asked`: by whoever chooses the skill; `gait`: that the legs are in; `time` [s];
         `played`: of the tick before, where the learned controller drove it."""
+        is_known = asked.firm and self.learned.covers(gait, target)
+        return self.decided(asked, gait, is_known, time, was, played)
+
+    def decided(
+        self, asked: SkillCall, gait: Gait, is_known: bool, time: float, was: Drive, played: Row | None
+    ) -> Drive:
+        """Who drives now, where it was found out already whether the case is known."""
         foreign = was.foreign
         if was.driver == LEARNED and played is not None:
             foreign += self.dt / gait.period * (1.0 - float(played[-1]) - foreign)
-        is_known = asked.firm and self.learned.covers(gait, target)
         since = was.known_since
         if not is_known or was.asked is None:
             since = max(since, time + TAKES_OVER)

@@ -8,9 +8,10 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
+from gaitwright.gait.body_reference import base_reference, pitching, write_body
 from gaitwright.gait.clearance import is_on_ground
-from gaitwright.gait.command import advance_reference, sample, slew
-from gaitwright.gait.contact_plane import advance_ground, plane_height, plane_normal
+from gaitwright.gait.command import advance_reference, slew
+from gaitwright.gait.contact_plane import advance_ground, plane_normal
 from gaitwright.gait.contacts import advance_legs, is_lifting, is_waited_for, shares
 from gaitwright.gait.foot_references import feet_in_base, feet_in_world, feet_reference, shank_leans
 from gaitwright.gait.grip import feel_grip
@@ -20,7 +21,6 @@ from gaitwright.gait.leg_cycles.leg_cycle import LegCycle, tabulated_legs
 from gaitwright.gait.operators import Operator, Packed, packed
 from gaitwright.gait.reach_assist import reach_assist
 from gaitwright.gait.reference import periodic_reference
-from gaitwright.gait.regulation import height_over
 from gaitwright.gait.state import STANCE, SWING, GaitMemory, standing, state_of
 from gaitwright.gait.transition import has_rhythm_of, is_new, may_start, start_gait
 from gaitwright.ground.elevation import BLIND
@@ -32,7 +32,6 @@ from gaitwright.numerics.geometry import (
     add,
     heading,
     rotation,
-    scale,
     upright_rotation,
     vec,
 )
@@ -47,21 +46,7 @@ CONTACT_THRESHOLD = 0.02
 
 
 @kernel
-def base_reference(state, table, stand, position, yaw_d):
-    """Position, velocity and acceleration of the base origin, and its pitch motion (θ, θ̇, θ̈)."""
-    y, yd, ydd, z, zd, zdd, p, pd, pdd = sample(table, state.phase[0])
-    c, s = math.cos(yaw_d), math.sin(yaw_d)
-    vx = c * state.command[0] - s * (state.command[1] + yd)
-    vy = s * state.command[0] + c * (state.command[1] + yd)
-    climb = state.slope[0] * vx + state.slope[1] * vy
-    at_x, at_y = state.reference_pose[0] - s * y, state.reference_pose[1] + c * y
-    ground = plane_height(state.slope, position, position[0], position[1])
-    height = height_over(ground, stand, plane_normal(state.slope)) + z
-    return (at_x, at_y, height), (vx, vy, climb + zd), (-s * ydd, c * ydd, zdd), (p, pd, pdd)
-
-
-@kernel
-def coordinate(
+def lead(
     numbers,
     height,
     stand,
@@ -71,7 +56,7 @@ def coordinate(
     offsets,
     cycles,
     terms,
-    tables,
+    over,
     imagined,
     leans,
     place,
@@ -85,10 +70,12 @@ def coordinate(
     memory,
     out,
 ):
-    """One tick of joint coordination: changes the row of the memory and writes that of a `MotionTarget`.
+    """One tick of joint coordination: changes the row of the memory and writes that of a `MotionTarget`, all
+    but its joint angles.
 
     `numbers`: the packed robot; `height`, `stand`: of its base over ground and foot centres; `threshold`:
     load of a foot in contact [N]; `clock`: (period, duty); `cycles`: the leg cycles, a table a leg;
+    `terms`, `over`: the terrain operators; `imagined`: obstacles that legs take for seen [m];
     `leans`: `shank_leans`; `place`, `heights`, `edges`: the `ElevationGrid`; `rise`: the most that
     its ground may step up or down [m]; `friction`: what is known of its grip; `asked`: forward, left, yaw
     rate; `seen`: the row of a `Sensed`.
@@ -123,35 +110,60 @@ def coordinate(
     rotation_d, omega, omega_rate = pitching(level, pitch, state.command[2])
     target = target_fields(out)
     target.extra_force_w[:] = 0.0
-    operators = Packed(terms, tables)
-    feet_p, feet_v, feet_a = feet_reference(
-        model,
-        state,
-        clock,
-        cycles,
-        operators,
-        imagined,
-        leans,
-        ground,
-        rise,
-        level,
-        at,
-        v,
-        base_v,
-        feet_w,
-        height,
-        target.extra_force_w,
-    )
-    base_p = add(base_p, reach_assist(model, state, rotation_d, base_p, feet_w, duty, height))
+    feet = (target.feet_w, target.feet_velocity_w, target.feet_acceleration_w, target.extra_force_w)
+    operators = Packed(terms, over)
+    feet_reference(
+        model, state, clock, cycles, operators, imagined, leans, ground, rise, level, at, v, base_v, feet_w,
+        height, *feet,
+    )  # fmt: skip
     target.operator[:], target.reach[:] = state.operator, state.reach
+    base_p = add(base_p, reach_assist(model, state, rotation_d, base_p, feet_w, duty, height))
     target.phase[0], target.command[:] = phase, state.command
     target.stance[:] = state.mode == STANCE
     target.load_scale[:] = shares(state, phase, period, duty, offsets, missing)
     target.friction[:] = state.grip
     write(target.normal_w, 0, normal)
     write_body(target, base_p, base_v, base_a, rotation_d, omega, omega_rate)
-    target.feet_w[:], target.feet_velocity_w[:], target.feet_acceleration_w[:] = feet_p, feet_v, feet_a
-    in_base = feet_in_base(rotation_d, base_p, feet_p)
+
+
+@kernel
+def coordinate(
+    numbers,
+    height,
+    stand,
+    threshold,
+    table,
+    clock,
+    offsets,
+    cycles,
+    terms,
+    over,
+    imagined,
+    leans,
+    place,
+    heights,
+    edges,
+    rise,
+    friction,
+    asked,
+    seen,
+    dt,
+    memory,
+    out,
+):
+    """`lead`, and the joint angles that realise it."""
+    lead(
+        numbers, height, stand, threshold, table, clock, offsets, cycles, terms, over, imagined, leans, place,
+        heights, edges, rise, friction, asked, seen, dt, memory, out,
+    )  # fmt: skip
+    write_angles(numbers, out)
+
+
+@kernel
+def write_angles(numbers, out):
+    """Writes the joint angles into the row of a `MotionTarget` that has all else."""
+    model, target = unpacked(numbers), target_fields(out)
+    in_base = feet_in_base(target.rotation_wb, vec(target.position_w), target.feet_w)
     target.q[:], _ = all_angles(model.hip, model.leg_frame, model.offset, model.sign, model.branch, in_base)
 
 
@@ -162,36 +174,6 @@ def feet_felt(state, model, ground, feet_w, loaded, height):
         if state.mode[leg] == SWING:
             loaded[leg] &= is_on_ground(ground, feet_w[leg], model.foot_radius[leg], height)
     return loaded
-
-
-@kernel
-def write_body(target, position, velocity, acceleration, rotation_wb, omega, omega_rate):
-    """Writes what the body should do into a target's fields."""
-    write(target.position_w, 0, position)
-    write(target.velocity_w, 0, velocity)
-    write(target.acceleration_w, 0, acceleration)
-    target.rotation_wb[:] = rotation_wb
-    write(target.angular_velocity_w, 0, omega)
-    write(target.angular_acceleration_w, 0, omega_rate)
-
-
-@kernel
-def pitching(level, pitch, turn):
-    """Rotation, angular velocity and acceleration of a body that pitches (θ, θ̇, θ̈) and turns [rad/s]."""
-    rotation_d = pitched(level, pitch[0])
-    lateral = (rotation_d[0, 1], rotation_d[1, 1], rotation_d[2, 1])
-    return rotation_d, add(scale(pitch[1], lateral), (0.0, 0.0, turn)), scale(pitch[2], lateral)
-
-
-@kernel
-def pitched(matrix, angle):
-    """`matrix` turned about its own y axis by `angle` [rad]."""
-    c, s = math.cos(angle), math.sin(angle)
-    out = matrix.copy()
-    for i in range(3):
-        out[i, 0] = c * matrix[i, 0] - s * matrix[i, 2]
-        out[i, 2] = s * matrix[i, 0] + c * matrix[i, 2]
-    return out
 
 
 class Cycle(NamedTuple):
@@ -233,9 +215,7 @@ class Coordinator:
     ) -> tuple[MotionTarget, GaitMemory]:
         """What body, feet and joints should do now, and the memory for the next tick."""
         robot = self.robot
-        grid, rise, friction = BLIND, robot.step_limit, GRIP
-        if ground is not None:
-            grid, rise, friction = ground.footholds, ground.step, ground.friction
+        grid, rise, friction = self.underfoot(ground)
         gait = self.possible(memory, call, sensed)
         cycle = self.cycle(gait)
         row, out = memory.row.copy(), np.empty(self.width)
@@ -261,6 +241,12 @@ class Coordinator:
             out,
         )
         return MotionTarget.of_row(out), GaitMemory(row, gait)
+
+    def underfoot(self, ground: GroundMap | None) -> tuple[ElevationGrid, float, float]:
+        """What feet know of the ground: heights, the most that it steps up or down [m], and its friction."""
+        if ground is None:
+            return BLIND, self.robot.step_limit, GRIP
+        return ground.footholds, ground.step, ground.friction
 
     def possible(self, memory: GaitMemory, call: SkillCall, sensed: Sensed) -> Gait:
         """The gait that is asked for, or the one in use as long as the robot is too fast for it."""

@@ -74,20 +74,22 @@ def feet_reference(
     wanted,
     feet_w,
     height,
+    p,
+    v,
+    a,
     extra,
 ):
-    """References `(legs, 3)` of the foot centres: position, velocity, acceleration.
+    """Writes the references `(legs, 3)` of the foot centres: position, velocity, acceleration.
 
     `operators`: terrain operators (`operators.Packed`); `imagined`: obstacles that legs are to take for seen
     [m]; `step`: the most that the ground may rise or drop at once [m]. Footholds, lifts and operators of
     `state` are brought up to date with it, and the forces of operators `(legs, 3)` are written to `extra`.
     """
     period, duty = clock
-    n = feet_w.shape[0]
-    p, v, a = feet_w.copy(), np.zeros((n, 3)), np.zeros((n, 3))
+    p[:], v[:], a[:] = feet_w, 0.0, 0.0
     duration = swing_time(period, duty)
     capture = math.sqrt(height / GRAVITY)
-    for leg in range(n):
+    for leg in range(feet_w.shape[0]):
         if state.mode[leg] == SWING:
             s = min(state.progress[leg], 1.0)
             hip_x, hip_y, arm_x, arm_y = hip_over_ground(rotation_d, position, model.nominal_feet[leg])
@@ -126,7 +128,6 @@ def feet_reference(
                 search_reference(state.origin[leg], state.progress[leg], height, p[leg], v[leg], a[leg])
                 if is_known(ground):
                     p[leg, 0], p[leg, 1] = state.foothold[leg, 0], state.foothold[leg, 1]
-    return p, v, a
 
 
 @kernel

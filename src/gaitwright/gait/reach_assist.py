@@ -26,10 +26,9 @@ DUE = 0.5
 def way_to_foot(model, state, leg, rotation_d, base_p, feet_w):
     """From the hip of the wanted pose to where the foot is, or is about to be."""
     hip = add(base_p, times(rotation_d, vec(model.hip[leg])))
-    foot = feet_w[leg]
     if state.mode[leg] == SWING and state.progress[leg] > DUE:
-        foot = state.foothold[leg]
-    return sub(vec(foot), hip)
+        return sub(vec(state.foothold[leg]), hip)
+    return sub(vec(feet_w[leg]), hip)
 
 
 @kernel

@@ -134,6 +134,27 @@ def hinge_axes(turns, sign):
     return (1.0, 0.0, 0.0), (0.0, c1, s1), (0.0, sign * c1, sign * s1)
 
 
+class Posed(NamedTuple):
+    """A leg where its joints are: worked out once, read by all who ask."""
+
+    leg: Leg
+    turns: tuple
+    """`leg_turns`."""
+    foot: tuple
+    """Foot centre, leg frame [m]."""
+    columns: tuple
+    """The three columns of its Jacobian, leg frame."""
+
+
+@kernel
+def posed(packed, q, k):
+    """The `Posed` of leg k of a packed robot, at its joint angles `q`."""
+    leg = leg_at(packed, k)
+    turns = leg_turns(q, leg.sign)
+    foot, c1, c2, c3 = foot_and_columns(turns, leg.offset, leg.sign)
+    return Posed(leg, turns, foot, (c1, c2, c3))
+
+
 # --- rates and accelerations -----------------------------------------------------------------------
 @kernel
 def combined(rates, columns):

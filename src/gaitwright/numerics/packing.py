@@ -17,7 +17,7 @@ import numpy as np
 from jaxtyping import Float
 from numba.extending import register_jitable
 
-from gaitwright.numerics.parts import part
+from gaitwright.numerics.parts import lent
 
 Row = Float[np.ndarray, "numbers"]
 
@@ -42,7 +42,7 @@ class Column:
         if not self.shape and not raw:
             return f"float(row[{start}])"
         shape = ", ".join(self.shape or ("1",)).replace("legs", "n")
-        view = f"part(row, {start}, ({shape},))"
+        view = f"lent(row, {start}, ({shape},))"
         return f"({view} > 0.5)" if self.is_bool and not raw else view
 
 
@@ -88,7 +88,8 @@ class Layout:
         return out
 
     def views(self, build: Callable[..., Any] | None = None, raw: bool = False) -> Callable[[Row], Any]:
-        """A function row → all fields, by name, or as `build` makes of them; kernels can call it.
+        """A function row → all fields, by name, or as `build` makes of them; kernels can call it, with rows
+        that they were handed (`numerics.parts.lent`).
 
         `raw`: all of them views that can be written to, truths as 1 and 0, single numbers as arrays of one.
         """
@@ -146,7 +147,7 @@ def compiled_source(body: str, layout: Layout, build: Callable[..., Any] | None 
     """A small function of a row, written from a layout: its offsets are constants to the compiler."""
     constant, per_leg = layout.length
     legs = f"n = (row.size - {constant}) // {per_leg}\n    " if per_leg else ""
-    return jitable(f"def read(row):\n    {legs}{body}\n", "read", {"build": build, "part": part})
+    return jitable(f"def read(row):\n    {legs}{body}\n", "read", {"build": build, "lent": lent})
 
 
 def jitable(source: str, name: str, space: dict[str, Any]) -> Callable[..., Any]:
@@ -156,6 +157,7 @@ def jitable(source: str, name: str, space: dict[str, Any]) -> Callable[..., Any]
 
 
 P = TypeVar("P", bound="Packed")
+new, put = object.__new__, object.__setattr__
 
 
 class Packed:
@@ -174,11 +176,11 @@ class Packed:
     @classmethod
     def of_row(cls: type[P], row: Row, **others: Any) -> P:
         """The value in a row; `others`: fields that are no numbers."""
-        value = object.__new__(cls)
-        put = object.__setattr__
+        value = new(cls)
         put(value, "row", row)
-        for name, other in others.items():
-            put(value, name, other)
+        if others:
+            for name, other in others.items():
+                put(value, name, other)
         return value
 
     def __getattr__(self, name: str) -> Any:

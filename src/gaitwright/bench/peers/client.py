@@ -22,7 +22,7 @@ from gaitwright.model.urdf import write_urdf
 
 START_TIMEOUT_S = 60.0
 ROUND_TIMEOUT_S = 120.0
-SCRIPTS = {name: Path(__file__).with_name(f"{name}_tick.py") for name in ("tsid", "placo")}
+SCRIPTS = {name: Path(__file__).with_name(f"{name}_tick.py") for name in ("tsid", "placo", "policy")}
 
 
 @dataclass(frozen=True)

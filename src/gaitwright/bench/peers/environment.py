@@ -83,6 +83,16 @@ _SKLEARN = (
     "scipy==1.17.1",
     "threadpoolctl==3.8.0",
 )
+_POLICY = (
+    "flatbuffers==25.12.19",
+    "ml-dtypes==0.6.0",
+    "numpy==2.3.5",
+    "onnx==1.23.2",
+    "onnxruntime==1.32.0",
+    "packaging==26.4",
+    "protobuf==7.36.2",
+    "typing-extensions==4.16.0",
+)
 _IMPORT_TSID = "import pinocchio; from tsid import tsid_pywrap"
 _IMPORT_PLACO = "import pinocchio, placo"
 
@@ -93,6 +103,9 @@ RECIPES = {
         Recipe("3.11", _TSID_1_7, _IMPORT_TSID),
     ),
     "placo": tuple(Recipe(python, _PLACO, _IMPORT_PLACO) for python in ("3.13", "3.12", "3.11")),
+    "policy": tuple(
+        Recipe(python, _POLICY, "import onnx, onnxruntime") for python in ("3.13", "3.12", "3.11")
+    ),
     "clips": tuple(Recipe(python, _CLIPS, "import clips") for python in ("3.13", "3.12", "3.11")),
     "sklearn": tuple(
         Recipe(python, _SKLEARN, "import sklearn.tree, sklearn.neighbors")

@@ -57,14 +57,8 @@ class Cells:
 
     def covers(self, forward: float, left: float, turn: float, speed_room: float, turn_room: float) -> bool:
         """Whether a velocity [m/s, rad/s] lies among cells that were taught, or hardly beyond them."""
-        speeds, turns, way = self.speeds, self.turns, self.way
-        along, across = forward * way[0] + left * way[1], left * way[0] - forward * way[1]
-        if not (speeds[0] - speed_room <= along <= speeds[-1] + speed_room and abs(across) <= speed_room):
-            return False
-        if not turns[0] - turn_room <= turn <= turns[-1] + turn_room:
-            return False
-        i, j = share_of(speeds, along)[0], share_of(turns, turn)[0]
-        return bool(self.taught[i : i + 2, j : j + 2].all())
+        command = (forward, left, turn)
+        return is_among(self.way, self.speeds, self.turns, self.taught, command, speed_room, turn_room)
 
 
 def distinct(values: Sequence[float]) -> Float[np.ndarray, " values"]:
@@ -91,6 +85,20 @@ def share_of(places, value):
 def next_of(k, places):
     """The place after one, or the last."""
     return min(k + 1, places.size - 1)
+
+
+@kernel
+def is_among(way, speeds, turns, taught, command, speed_room, turn_room):
+    """Whether a command lies among cells that were taught, or hardly beyond them (`Cells.covers`)."""
+    along = command[0] * way[0] + command[1] * way[1]
+    across, turn = command[1] * way[0] - command[0] * way[1], command[2]
+    if not (speeds[0] - speed_room <= along <= speeds[-1] + speed_room and abs(across) <= speed_room):
+        return False
+    if not turns[0] - turn_room <= turn <= turns[-1] + turn_room:
+        return False
+    i, j = share_of(speeds, along)[0], share_of(turns, turn)[0]
+    k, m = next_of(i, speeds), next_of(j, turns)
+    return taught[i, j] and taught[k, j] and taught[i, m] and taught[k, m]
 
 
 @kernel

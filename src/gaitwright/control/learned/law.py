@@ -18,7 +18,7 @@ from gaitwright.control.impedance import pull, stretch
 from gaitwright.control.inverse_dynamics import MOST_ACCELERATION, MOST_SPIN, base_feedback, clipped
 from gaitwright.control.learned.profile import row_of
 from gaitwright.control.moments import moment_between
-from gaitwright.model.leg import foot_and_columns, hinge_axes, leg_at, leg_turns
+from gaitwright.model.leg import hinge_axes, leg_at, posed
 from gaitwright.model.robot import scales
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import (
@@ -72,11 +72,9 @@ class Foot(NamedTuple):
 
 
 @kernel
-def foot_now(packed, moment, k, R):
-    """The `Foot` of leg k; `R`: orientation of the base."""
-    leg = leg_at(packed, k)
-    turns = leg_turns(moment.q[k], leg.sign)
-    foot, c1, c2, c3 = foot_and_columns(turns, leg.offset, leg.sign)
+def foot_now(posed_leg, moment, R):
+    """The `Foot` of a `Posed` leg; `R`: orientation of the base."""
+    leg, turns, foot, (c1, c2, c3) = posed_leg
     axes = hinge_axes(turns, leg.sign)
     below_w = scale(-leg.foot_radius, vec(moment.normal))
     below = apply_t(leg.frame, times_t(R, below_w))
@@ -108,18 +106,20 @@ def play(packed, inertia, maps, taught, seen, target, out):
     G = ground_frame(moment, R)
     wanted = wanted_wrench(packed, inertia, profile, moment, R, G)
     n = moment.stance.size
-    arms, columns = np.empty((n, 3)), np.empty((n, 3, 3))
+    arms, columns, rates = np.empty((n, 3)), np.empty((n, 3, 3)), np.empty(3)
     for k in range(n):
-        foot = foot_now(packed, moment, k, R)
+        now = posed(packed, moment.q[k], k)
+        foot = foot_now(now, moment, R)
         write(arms[k], 0, foot.arm)
         for j in range(3):
             write(columns[k, j], 0, foot.columns[j])
+        lag, lag_rate = vec(profile.lag[k]), vec(profile.lag_rate[k])
+        pull(packed, now, moment, k, R, lag, lag_rate, result.tau[k], rates)
     share_forces(packed, maps, profile, moment, wanted, arms, G, result)
     tau_max, _, _ = scales(packed)
-    off, whole, total, rates = 0.0, 0.0, 0.0, np.empty(3)
+    off, whole, total = 0.0, 0.0, 0.0
     for k in range(n):
         force, moved = vec(result.forces_w[k]), vec(extra[k])
-        pull(packed, moment, k, R, vec(profile.lag[k]), vec(profile.lag_rate[k]), result.tau[k], rates)
         for j in range(3):
             more = dot(vec(columns[k, j]), moved)
             asked = profile.free[k, j] + more - dot(vec(columns[k, j]), force) + result.tau[k, j]
@@ -234,7 +234,8 @@ def note(packed, seen, asked, tau, forces_w, out):
     write(row.feedback, 3, times_t(G, angular))
     height, down = 0.0, 0
     for k in range(moment.stance.size):
-        foot, lacks = foot_now(packed, moment, k, R), stretch(packed, moment, k, R)
+        now = posed(packed, moment.q[k], k)
+        foot, lacks = foot_now(now, moment, R), stretch(now, moment, k, R)
         force = vec(forces_w[k])
         for j in range(3):
             row.free[k, j] = tau[k, j] + dot(foot.columns[j], force)
