@@ -83,8 +83,8 @@ def lead_and_play(
     memory[:] = before
     target[:] = np.nan
     lead(
-        numbers, s.height, s.stand, s.threshold, s.table, (s.period, s.duty), s.offsets, s.cycles, terms, over,
-        s.imagined, s.leans, place, heights, edges, rise, friction, asked, seen, s.dt, memory, target,
+        numbers, s.height, s.stand, s.threshold, s.table, (s.period, s.duty), s.offsets, s.cycles, terms,
+        over, s.imagined, s.leans, place, heights, edges, rise, friction, asked, seen, s.dt, memory, target,
     )  # fmt: skip
     taught = np.empty(tables.shape[3])
     tick(numbers, s.inertia, maps, s.way, speeds, turns, tables, seen, target, taught, played)
