@@ -8,6 +8,7 @@ from pathlib import Path
 from gaitwright.errors import BadFile
 from gaitwright.knowledge.forest import Forest
 from gaitwright.knowledge.rules import Rulebook
+from gaitwright.knowledge.trust import History, fault_in_history
 from gaitwright.skillbook import store, text
 from gaitwright.skillbook.entries import (
     About,
@@ -20,6 +21,7 @@ from gaitwright.skillbook.entries import (
     rulebook_of,
     step_entry,
     steps_of,
+    trust_entries,
 )
 from gaitwright.skillbook.history import Ancestor, Step, all_told, forgotten
 from gaitwright.skillbook.profile_notes import ProfileNotes, fault_in
@@ -44,6 +46,8 @@ class Skillbook:
     pupil: PupilNotes | None = None
     profiles: tuple[ProfileNotes, ...] = ()
     """Torque profiles, in the order of their names."""
+    trust: History = ()
+    """What the learned controller went through with each skill, in order."""
 
     @staticmethod
     def new(start: Forest | Rulebook, robot: str = "", name: str = "", seed: int = 0) -> "Skillbook":
@@ -87,7 +91,8 @@ def entry_of(book: Skillbook) -> File:
     rulebook = rulebook_entry(book.rulebook)
     steps = tuple(step_entry(step) for step in book.steps)
     ancestors = tuple(ancestor_entry(a) for a in book.ancestors)
-    return File(about_of(book), rulebook, steps, ancestors, book.pupil, profile_entries(book.profiles))
+    profiles, trust = profile_entries(book.profiles), trust_entries(book.trust)
+    return File(about_of(book), rulebook, steps, ancestors, book.pupil, profiles, trust)
 
 
 def about_of(book: Skillbook) -> About:
@@ -95,7 +100,7 @@ def about_of(book: Skillbook) -> About:
     rules = book.rulebook
     counts = (len(book.steps), len(rules.rules), len(rules.preferences), len(rules.forest.trees))
     own = (book.name, book.robot, book.made_by, book.seed, rules.lessons)
-    others = len(book.ancestors), int(book.pupil is not None), len(book.profiles)
+    others = len(book.ancestors), int(book.pupil is not None), len(book.profiles), len(book.trust)
     return checked(About(*own, *counts, *others), About)
 
 
@@ -105,8 +110,8 @@ def book_of(entry: File, source: str) -> Skillbook:
     steps = steps_of(entry.steps, rulebook.events, source)
     about, ancestors = entry.about, ancestors_of(entry.ancestors)
     check_notes(entry.pupil, steps, source)
-    check_profiles(entry.profiles, source)
-    own = (about.made_by, about.seed, ancestors, entry.pupil, entry.profiles)
+    check_profiles(entry, source)
+    own = (about.made_by, about.seed, ancestors, entry.pupil, entry.profiles, entry.trust)
     return Skillbook(about.name, about.robot, rulebook, steps, *own)
 
 
@@ -123,9 +128,10 @@ def check_notes(notes: PupilNotes | None, steps: tuple[Step, ...], source: str) 
         raise BadFile(f"{source}: its pupil has learned from other lessons than it holds")
 
 
-def check_profiles(profiles: tuple[ProfileNotes, ...], source: str) -> None:
-    """Raises `BadFile` where one of a book's profiles is damaged, or stands in it twice."""
-    fault = fault_in(profiles)
+def check_profiles(entry: File, source: str) -> None:
+    """Raises `BadFile` where one of a book's profiles is damaged, or stands in it twice, or the history of
+    trust in them makes no sense."""
+    fault = fault_in(entry.profiles) or fault_in_history(entry.trust)
     if fault:
         raise BadFile(f"{source}: {fault}")
 

@@ -27,6 +27,7 @@ from gaitwright.knowledge.lessons import Lesson
 from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.rules import Event, Rulebook
 from gaitwright.knowledge.told import Given, Told
+from gaitwright.knowledge.trust import Experience, History, fault_in_history
 from gaitwright.skillbook.history import Ancestor, How, Step
 from gaitwright.skillbook.profile_notes import ProfileNotes, fault_in, name_of
 from gaitwright.skillbook.pupil_notes import PupilNotes
@@ -51,6 +52,7 @@ class About(Strict, frozen=True):
     ancestors: Place = 0
     pupil: Annotated[int, Meta(ge=0, le=1)] = 0
     profiles: Place = 0
+    trust: Place = 0
 
 
 class AncestorEntry(Strict, frozen=True):
@@ -120,6 +122,7 @@ class File(Strict, frozen=True):
     pupil: PupilNotes | None = None
     profiles: tuple[ProfileNotes, ...] = ()
     """In the order of their names."""
+    trust: History = ()
 
 
 ENCODER = msgspec.json.Encoder(order="deterministic")
@@ -183,6 +186,15 @@ def profile_entries(profiles: Iterable[ProfileNotes]) -> tuple[ProfileNotes, ...
     if fault:
         raise WrongUse(f"a skillbook cannot hold this: {fault}")
     return ordered
+
+
+def trust_entries(history: Iterable[Experience]) -> History:
+    """A history of trust, checked against the limits of a file."""
+    entries = tuple(checked(entry, Experience) for entry in history)
+    fault = fault_in_history(entries)
+    if fault or len(entries) > MAX_EVENTS:
+        raise WrongUse(f"a skillbook cannot hold this: {fault or f'more than {MAX_EVENTS} entries of trust'}")
+    return entries
 
 
 # --- back ------------------------------------------------------------------------------------------

@@ -16,6 +16,7 @@ import msgspec
 from gaitwright.errors import BadFile
 from gaitwright.knowledge.json_form import FORMAT, BookEntry, EventEntry, RuleEntry, TreeEntry, WishEntry
 from gaitwright.knowledge.rules import Rulebook
+from gaitwright.knowledge.trust import Experience
 from gaitwright.skillbook.entries import (
     About,
     AncestorEntry,
@@ -40,6 +41,7 @@ KEYS = {
     "events": ("step", "place"),
     "pupil": ("place",),
     "profiles": ("name",),
+    "trust": ("place",),
 }
 """The key columns of each table, in an order in which rows can be written."""
 
@@ -138,6 +140,11 @@ def change_profiles(
     put(db, profile_rows(profile for name, profile in now.items() if was.get(name) != profile))
 
 
+def trust_rows(history: Iterable[Experience], first: int = 0) -> Rows:
+    """The rows of entries of trust, the first of them at a place."""
+    return {("trust", (k,)): encoded(entry) for k, entry in enumerate(history, first)}
+
+
 def step_rows(place: int, step: StepEntry, events: Iterable[EventEntry]) -> Rows:
     """The rows of one step and what it moved."""
     rows: Rows = {("steps", (place,)): encoded(step)}
@@ -159,7 +166,8 @@ def read(db: sqlite3.Connection, source: str) -> File:
     notes = _row_of(_read(db, "pupil", PupilNotes, source), about.pupil, "pupils", source)
     rulebook = BookEntry(FORMAT, trees, rules, wishes, events, about.lessons)
     profiles = _profiles(_read(db, "profiles", ProfileNotes, source), about.profiles, source)
-    return File(about, rulebook, steps, ancestors, notes[0] if notes else None, profiles)
+    trust = _row_of(_read(db, "trust", Experience, source), about.trust, "entries of trust", source)
+    return File(about, rulebook, steps, ancestors, notes[0] if notes else None, profiles, trust)
 
 
 def _read(db: sqlite3.Connection, table: str, kind: type[T], source: str) -> dict[tuple, T]:

@@ -43,7 +43,12 @@ CREATE TABLE profiles (name TEXT NOT NULL PRIMARY KEY,
     content TEXT NOT NULL, seal BLOB NOT NULL) STRICT, WITHOUT ROWID;
 """
 
-MIGRATIONS: tuple[str, ...] = (FIRST, PUPIL, PROFILES)
+TRUST = """
+CREATE TABLE trust (place INTEGER NOT NULL PRIMARY KEY,
+    content TEXT NOT NULL, seal BLOB NOT NULL) STRICT;
+"""
+
+MIGRATIONS: tuple[str, ...] = (FIRST, PUPIL, PROFILES, TRUST)
 """What makes each version from the one before. Books of every version load forever: only ever append."""
 
 LIMITS = {

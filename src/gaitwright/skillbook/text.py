@@ -27,6 +27,7 @@ from gaitwright.knowledge.json_form import (
     TreeEntry,
     WishEntry,
 )
+from gaitwright.knowledge.trust import Experience
 from gaitwright.skillbook.entries import (
     About,
     AncestorEntry,
@@ -101,6 +102,7 @@ KINDS: dict[str, type] = {
     "event": EventEntry,
     "pupil": PupilNotes,
     "profile": ProfileNotes,
+    "trust": Experience,
 }
 
 
@@ -132,6 +134,8 @@ def _lines(entry: File) -> Iterator[tuple[str, Any]]:
         yield "pupil", entry.pupil
     for profile in entry.profiles:
         yield "profile", profile
+    for experience in entry.trust:
+        yield "trust", experience
 
 
 def _rule_lines(rule: RuleEntry, trees: list[str]) -> Iterator[tuple[str, Any]]:
@@ -167,6 +171,7 @@ class Draft:
     steps: list[tuple[StepLine, list[EventEntry]]] = field(default_factory=list)
     pupils: list[PupilNotes] = field(default_factory=list)
     profiles: list[ProfileNotes] = field(default_factory=list)
+    trust: list[Experience] = field(default_factory=list)
 
 
 def read(content: str, source: str) -> File:
@@ -226,6 +231,7 @@ def _take(draft: Draft, line: str) -> None:
             "wish": draft.wishes,
             "pupil": draft.pupils,
             "profile": draft.profiles,
+            "trust": draft.trust,
         }
         lists[word].append(value)
 
@@ -252,10 +258,12 @@ def _file(draft: Draft, source: str) -> File:
         len(ancestors),
         len(draft.pupils),
         len(profiles),
+        len(draft.trust),
     )
     about = About(b.name, b.robot, b.made_by, b.seed, b.lessons, *counts)
     rulebook = BookEntry(FORMAT, trees, rules, wishes, events, b.lessons)
-    return File(about, rulebook, steps, ancestors, draft.pupils[0] if draft.pupils else None, profiles)
+    pupil = draft.pupils[0] if draft.pupils else None
+    return File(about, rulebook, steps, ancestors, pupil, profiles, tuple(draft.trust))
 
 
 def _rule(rule: DraftRule, trees: list[str], source: str) -> RuleEntry:
