@@ -13,7 +13,7 @@ GROUPS = {
     "skills": ("skills", "transitions", "terrain", "anyrobot", "cost"),
     "mechanics": ("dynamics", "sharing", "streaming", "armstrong"),
     "rules": ("rules", "school", "lessons", "teachers", "kills"),
-    "takeover": ("learned", "profiles", "sensing", "hybrid", "newcomers"),
+    "takeover": ("learned", "profiles", "sensing", "hybrid", "growth", "newcomers"),
     "outside": ("strangers", "fuzz", "faults"),
 }
 """Groups of claims, each claim the name of a module here, in the order in which they are measured."""

@@ -81,6 +81,8 @@ class Trial:
     """Whether it is let down at the end."""
     sensing: Sensing = "true"
     """Whether it is told its state, or estimates it."""
+    alarmed: bool = False
+    """Whether the learned controller is asked for no velocity while it stumbles."""
 
     @property
     def is_imperfect(self) -> bool:
@@ -190,7 +192,8 @@ def brain_for(trial: Trial, robot: Robot, scene: Scene) -> Brain:
     if "learned" not in (trial.driver, trial.then and trial.then.driver):
         return brain
     skills = {trial.skill, trial.then.skill} if trial.then else {trial.skill}
-    return brain.with_profiles({skill: (profile_of(trial.robot, skill),) for skill in skills})
+    profiles = {skill: (profile_of(trial.robot, skill),) for skill in skills}
+    return brain.with_profiles(profiles, alarmed=trial.alarmed)
 
 
 def second_call(trial: Trial, robot: Robot) -> SkillCall:

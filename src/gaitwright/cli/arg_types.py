@@ -25,7 +25,8 @@ SENSINGS = {
 LESSONS = {
     "skills": "which skill to use where",
     "profiles": "the torques of each skill, from the numerical controller",
-    "all": "both",
+    "all": "skills and profiles",
+    "practice": "trips in physics by what the book holds: trust grows or falls, own mistakes teach",
 }
 BOOK_TASKS = {
     "merge": "two books to one",
@@ -35,6 +36,8 @@ BOOK_TASKS = {
     "edit": "BOOK takes in what a person changed in a profile's TABLE",
     "undo": "BOOK forgets the last lesson that counts",
     "forget": "BOOK forgets a LESSON by its name",
+    "trust": "how far the learned controller is trusted with the skills of BOOK; with a SKILL: its history; "
+    "with a GRADE: now it is apprentice, assistant, partner or skilled",
 }
 """What `gaitwright books` can do."""
 LONGEST = 3600.0

@@ -45,6 +45,8 @@ def run(args: Namespace) -> int:
     robot, path = find_robot(args.robot, args.package), settled(args.out, "--out")
     teacher = teacher_for(robot) if args.policy is None else ScriptedTeacher(policy_in(args.policy, robot))
     is_new = not is_book_of(robot, path, args)
+    if args.lesson == "practice":
+        import_module("gaitwright.cli.teach_practice").check(args.start if is_new else args.out, robot, args)
     if is_new:
         begun(robot, new_file(args.out, "skillbook").stem, args).save(path)
     ledger = None
@@ -72,9 +74,11 @@ def is_blank(book: Skillbook) -> bool:
 def teach(robot: Robot, teacher: ScriptedTeacher, ledger: Ledger, args: Namespace) -> None:
     """The lessons that were asked for."""
     figures = {}
-    if args.lesson != "profiles":
+    if args.lesson in ("skills", "all"):
         figures |= go_to_school(robot, teacher, ledger, args)
-    if args.lesson != "skills":
+    if args.lesson == "practice":
+        figures["practice"] = import_module("gaitwright.cli.teach_practice").run(robot, ledger, args)
+    if args.lesson in ("profiles", "all"):
         figures["torque_profiles"] = import_module("gaitwright.cli.teach_profiles").run(robot, ledger, args)
         suggest(ledger.book, args)
     write_json(args.json, json.dumps(figures, indent=2, ensure_ascii=False))
@@ -96,6 +100,8 @@ def check_live(args: Namespace) -> None:
         raise WrongUse(
             "profiles come from the numerical controller, without trips: leave --trips and --policy out"
         )
+    if args.lesson == "practice" and args.policy is not None:
+        raise WrongUse("practice goes by the rules that the book holds: leave --policy out")
     if args.live and args.lesson != "skills":
         raise WrongUse("with --live a person teaches skills: leave --lesson out")
     if not args.live and where:
@@ -137,7 +143,8 @@ def begun(robot: Robot, name: str, args: Namespace) -> Skillbook:
     old = skillbook_of(args.start)
     check_teachable(old, args.start)  # before there is a new one
     profiles = old.profiles if old.robot == robot.name else ()
-    return replace(old.forked(name), robot=robot.name, seed=args.seed, profiles=profiles)
+    trust = old.trust if profiles else ()
+    return replace(old.forked(name), robot=robot.name, seed=args.seed, profiles=profiles, trust=trust)
 
 
 def check_teachable(book: Skillbook, path: Path | str) -> None:
