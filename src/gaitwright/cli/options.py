@@ -121,7 +121,6 @@ COMMANDS = {
         "the learned controller is trusted with each skill, and sets it.",
         (
             "gaitwright books merge mine.skills yours.skills --out both.skills",
-            "gaitwright books export mine.skills --out mine.txt     # without --out: to the standard output",
             "gaitwright books confirm mine.skills walk-backward     # `books undo` takes it back",
             "gaitwright books trust mine.skills trot partner     # without a skill: all of them",
         ),
