@@ -10,6 +10,7 @@ from functools import cached_property
 from time import perf_counter_ns
 from typing import NamedTuple
 
+from gaitwright.control.alarm import QUIET, Alarm, Heard
 from gaitwright.control.handover import Handover
 from gaitwright.control.learned.controller import LearnedController
 from gaitwright.control.takeover import HYBRID, LEARNED, UNDECIDED, Drive, Takeover
@@ -37,6 +38,7 @@ class Memories(NamedTuple):
     """The change of driver that is under way."""
     drive: Drive = UNDECIDED
     """Who drives, in a hybrid."""
+    alarm: Heard = QUIET
 
 
 Driven = tuple[SkillCall, MotionTarget, Memory, Drive, Controller, MotorCommand, Memory, int]
@@ -53,6 +55,8 @@ class Driving:
     controllers: Mapping[str, Controller]
     takeover: Takeover | None
     """Who decides who drives in a hybrid; `None`: the numerical controller does."""
+    alarm: Alarm | None = None
+    """Who asks a robot that stumbles to go no farther; `None`: nobody."""
 
     def controller(self, driver: str) -> Controller:
         """Who computes the torques. Raises `WrongUse` for a driver that there is not."""
@@ -70,7 +74,7 @@ class Driving:
 
     def tick(self, before: Memories, call: SkillCall, sensed: Sensed, ground: GroundMap) -> Driven:
         """One tick. `before`: what each stage handed back in the one before."""
-        if LEARNED in (call.driver, before.drive.driver):
+        if LEARNED in (call.driver, before.drive.driver) and not before.alarm.rings:
             driven = self.at_once(before, call, sensed, ground)
             if driven is not None:
                 return driven
@@ -78,7 +82,8 @@ class Driving:
 
     def one_by_one(self, before: Memories, call: SkillCall, sensed: Sensed, ground: GroundMap) -> Driven:
         """Gait, then who drives, then control."""
-        target, gait = self.coordinator.move(before.gait, call, sensed, ground)
+        wanted = call if self.alarm is None else self.alarm.calmed(call, before.alarm)
+        target, gait = self.coordinator.move(before.gait, wanted, sensed, ground)
         handed = perf_counter_ns()
         used = with_gait_in_use(call, gait)
         drive = self.driver_of(call, used.gait, target, sensed.time, before)
@@ -94,6 +99,8 @@ class Driving:
         """Who drives a call, in a hybrid; else nothing is decided."""
         if self.takeover is None or call.driver != HYBRID:
             return UNDECIDED
+        if before.alarm.rings:
+            return self.takeover.kept(call, before.drive)
         return self.takeover.decide(call, gait, target, time, before.drive, before.control)
 
     def at_once(self, before: Memories, call: SkillCall, sensed: Sensed, ground: GroundMap) -> Driven | None:
@@ -112,7 +119,7 @@ class Driving:
         if call.driver == HYBRID:
             if takeover is None or gait.gait is None:
                 return None
-            is_known = call.firm and is_known
+            is_known = is_known and takeover.trusts(call, gait.gait)
             drive = takeover.decided(call, gait.gait, is_known, sensed.time, before.drive, before.control)
             if drive.driver != LEARNED:
                 return None

@@ -8,8 +8,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from time import perf_counter_ns
+from types import MappingProxyType
 from typing import NamedTuple
 
+from gaitwright.control.alarm import QUIET, Alarm
 from gaitwright.control.handover import begun, softened
 from gaitwright.control.kinematic import KinematicController
 from gaitwright.control.learned.controller import LearnedController
@@ -22,6 +24,7 @@ from gaitwright.gait.leg_cycles.leg_cycle import LegCycle
 from gaitwright.gait.operators import Operator
 from gaitwright.ground.scene import Scene
 from gaitwright.knowledge.rules import Rulebook
+from gaitwright.knowledge.trust import Grade
 from gaitwright.model.robot import Robot
 from gaitwright.navigation.navigator import Navigator
 from gaitwright.perception.estimated_state import EstimatedState, Sensing
@@ -44,6 +47,7 @@ from gaitwright.skills.foothold_guard import FootholdGuard
 from gaitwright.skills.rule_chooser import RuleChooser
 from gaitwright.stages import Chooser, Controller, Memory, MotionStage, Navigation, Perception
 
+NO_GRADES: Mapping[str, Grade] = MappingProxyType({})
 LOOK_EVERY = 0.1
 """The navigator looks at the route this often [s]."""
 
@@ -62,6 +66,8 @@ class Brain:
     """Who notices what is broken; `None`: nobody."""
     takeover: Takeover | None = None
     """Who decides who drives in a hybrid; `None`: the numerical controller does."""
+    alarm: Alarm | None = None
+    """Who notices that the learned controller stumbles; `None`: nobody."""
 
     @classmethod
     def of(  # noqa: PLR0913 - the door to all settings; most calls name two of these
@@ -114,16 +120,25 @@ class Brain:
             self, coordinator=coordinator, controllers={**self.controllers, "programmed": programmed}
         )
 
-    def with_profiles(self, profiles: Mapping[str, Sequence[Profile]]) -> "Brain":
+    def with_profiles(
+        self,
+        profiles: Mapping[str, Sequence[Profile]],
+        grades: Mapping[str, Grade] = NO_GRADES,
+        alarmed: bool = False,
+    ) -> "Brain":
         """The same brain with a driver `learned`, who plays these profiles by the skill, and in a `hybrid`
-        where it knows the case. Raises `WrongUse` for profiles of a robot with other legs."""
+        where it knows the case and is trusted with the skill.
+
+        `grades`: how far, by the skill; one without a grade is driven as by a partner. `alarmed`: whether it
+        is asked for no velocity while it stumbles. Raises `WrongUse` for profiles of a robot with other legs.
+        """
         numerical, coordinator = self.controllers["numerical"], self.coordinator
         assert isinstance(numerical, NumericalController) and isinstance(coordinator, Coordinator)
         learned = LearnedController(self.robot, profiles, numerical)
         controllers = {**self.controllers, LEARNED: learned}
-        return replace(
-            self, controllers=controllers, takeover=Takeover(learned, coordinator.dt) if profiles else None
-        )
+        takeover = Takeover(learned, coordinator.dt, grades) if profiles else None
+        alarm = Alarm(self.robot) if profiles and alarmed else None
+        return replace(self, controllers=controllers, takeover=takeover, alarm=alarm)
 
     def with_operators(self, operators: Sequence[Operator]) -> "Brain":
         """The same brain with terrain operators, tried in this order, whoever computes the torques."""
@@ -135,7 +150,7 @@ class Brain:
     @cached_property
     def driving(self) -> Driving:
         """Gait and control of this brain."""
-        return Driving(self.coordinator, self.controllers, self.takeover)
+        return Driving(self.coordinator, self.controllers, self.takeover, self.alarm)
 
     def begin(
         self, mission: Mission, measured: Measured, phase: float = 0.0, before: "Mind | None" = None
@@ -211,7 +226,7 @@ def think(brain: Brain, mind: Mind, measured: Measured) -> tuple[Lap, Mind]:
     if watch is not None:
         sensed, watched = watch.check(measured, sensed, watched)
     mind, travelled = plan_and_choose(brain, mind, sensed, ground)
-    before = mind.memories
+    before, alarm = mind.memories, brain.alarm
     driven = brain.driving.tick(before, mind.call, sensed, ground)
     call, target, gait, drive, controller, command, control, handed = driven
     change = before.change
@@ -224,7 +239,11 @@ def think(brain: Brain, mind: Mind, measured: Measured) -> tuple[Lap, Mind]:
     if watch is not None and watched is not None:
         watched = watch.heard(watched, target, command, sensed)
         lap = lap._replace(faults=watched.faults) if watched.faults else lap
-    memories = Memories(perceived, travelled, gait, control, controller, watched, command, change, drive)
+    heard = QUIET
+    if alarm is not None and call.driver == LEARNED:
+        heard = alarm.listen(target, sensed, before.alarm)
+    after = (perceived, travelled, gait, control, controller, watched, command, change, drive, heard)
+    memories = Memories(*after)
     return lap, Mind(mind.mission, ground, mind.route, mind.call, memories, mind.looked_at, mind.chosen_at)
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float
 
 from gaitwright.control.learned.cells import is_among
-from gaitwright.control.learned.controller import LearnedController, command_of, tick
+from gaitwright.control.learned.controller import LearnedController, command_of, is_beyond, tick
 from gaitwright.control.learned.law import LAYOUT
 from gaitwright.gait.coordinator import Coordinator, lead
 from gaitwright.gait.led import Led
@@ -72,8 +72,8 @@ def lead_and_play(
     """One tick: writes the rows of the gait's memory, a `MotionTarget` and a `Played`, one after the other.
 
     `numbers`: the packed robot; `settings`: the row of its `Settings`; `before`: the gait's memory so far;
-    the others as in `gait.coordinator.lead` and the learned controller's `tick`. Returns whether the velocity
-    that is asked for lies among what was taught.
+    the others as in `gait.coordinator.lead` and the learned controller's `tick`. Returns whether the learned
+    controller covers it.
     """
     s = settings_in(settings)
     (a, b), (c, d), n = TARGET, PLAYED, s.offsets.size
@@ -88,6 +88,8 @@ def lead_and_play(
     )  # fmt: skip
     taught = np.empty(tables.shape[3])
     tick(numbers, s.inertia, maps, s.way, speeds, turns, tables, seen, target, taught, played)
+    if is_beyond(target):
+        return False
     return is_among(s.way, speeds, turns, known, command_of(target), s.speed_room, s.turn_room)
 
 

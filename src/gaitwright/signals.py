@@ -208,6 +208,8 @@ class SkillCall:
     """Working memory after this choice: what rules added and have not deleted."""
     firm: bool = False
     """Whether a rule that stands firm asks for it."""
+    ruled: bool = False
+    """Whether a rule asks for it at all."""
 
 
 @packed

@@ -13,10 +13,11 @@ from gaitwright.description.load import load_robot
 from gaitwright.knowledge.json_form import dumps
 from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.rules import QUIET, Rulebook
-from gaitwright.learning import profile_lessons, profile_school
+from gaitwright.knowledge.trust import Experience, grades_in
+from gaitwright.learning import practice, profile_lessons, profile_school
 from gaitwright.learning.profile_books import notes_of
 from gaitwright.learning.profile_lessons import taught
-from gaitwright.skillbook import Skillbook
+from gaitwright.skillbook import Skillbook, open_for_learning
 from gaitwright.skillbook.profile_notes import ProfileNotes, name_of
 from gaitwright.skills.situation import FOREST
 from knowledge.hand_made import rule_of
@@ -89,6 +90,18 @@ def test_each_skill_is_taught_and_tried(schooled: tuple[Skillbook, dict]) -> Non
     assert figures["profiles"] == 3 and list(figures["skills"]) == list(SKILLS)
     for skill, found in figures["skills"].items():
         assert found["kept_up"] == found["starts"] and found["held"] > 0.9 and found["played"] > 0.7, skill
+        assert [e.how for e in book.trust if e.skill == skill] == ["taught", "drove", "drove"]
+
+
+def test_a_skill_that_fell_when_it_was_tried_is_less_than_a_partners() -> None:
+    cell = profile_notes("trot")
+    for kept_up, grade in ((2, "partner"), (1, "assistant"), (0, "apprentice")):
+        learned = profile_school.Learned("trot", (cell,), profile_school.Try(kept_up, 1.0, 1.0))
+        with pytest.MonkeyPatch.context() as long:
+            long.setattr(profile_school, "SECONDS", 6.0)
+            long.setattr(profile_school, "HANDED_OVER", 1.0)
+            assert grades_in(profile_school.lived(learned)) == {"trot": grade}
+    assert profile_school.lived(profile_school.Learned("trot", why="it falls")) == []
 
 
 def test_what_is_known_is_not_taught_again(
@@ -116,7 +129,10 @@ def test_what_is_missing_or_out_of_date_is_taught_and_nothing_else(
         replace(book, profiles=(*had, *turns)).save("go2.skills")
         report, told = reported([*TEACH, "go2.skills"], capsys)
         assert list(report["torque_profiles"]["skills"]) == ["stand"] and said in told
-        assert Skillbook.load("go2.skills") == book, "the same seed teaches the same"
+        again = Skillbook.load("go2.skills")
+        assert replace(again, trust=book.trust) == book, "the same seed teaches the same"
+        new = again.trust[len(book.trust) :]
+        assert {entry.skill for entry in new} == {"stand"} and new[0].how == "taught", "trust begins again"
 
 
 def test_an_interrupted_school_goes_on(book: Skillbook, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -195,7 +211,49 @@ def test_a_hybrid_goes_without_what_is_out_of_date_and_says_so(
     assert "gaitwright teach --lesson profiles --robot go2 --out trot.skills" in told
 
 
+def test_a_trip_that_may_learn_is_in_the_history_of_trust(
+    trot: ProfileNotes, capsys: pytest.CaptureFixture[str]
+) -> None:
+    trotting(trot, "trot.skills")
+    words = ["trot.skills", "--driver", "hybrid"]
+    reported([*MISSION, *words], capsys)
+    assert Skillbook.load("trot.skills").trust == (), "nothing is written unasked"
+    with open_for_learning("trot.skills") as ledger:
+        ledger.trust([Experience("trot", "set", grade="apprentice")])
+    report, _ = reported([*MISSION, *words], capsys)
+    assert "learned" not in report["driver_share"], "an apprentice watches"
+
+
+def practised(trips: int) -> list[str]:
+    return ["teach", "--lesson", "practice", "--trips", str(trips), "--out", "go2.skills"]
+
+
+def test_practice_drives_in_physics_and_tells_trip_by_trip(
+    trot: ProfileNotes, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(practice, "SECONDS", 2.0)
+    monkeypatch.setattr(teach, "EXAM", 8)
+    assert main(["teach", "--trips", "2", "--out", "go2.skills"]) == 0
+    taught_so_far = Skillbook.load("go2.skills")
+    replace(taught_so_far, profiles=(trot,)).save("go2.skills")
+    report, told = reported(practised(2), capsys)
+    found = report["practice"]
+    assert [trip["trip"] for trip in found["trips"]] == ["1", "2"] and "trip 2 of 2" in told
+    for trip in found["trips"]:
+        assert sum(trip["driver_share"].values()) == pytest.approx(1.0) and trip["tick_us"]["lap"] > 0.0
+        assert trip["energy_j_per_m"] >= 0.0 and trip["falls"] in (0, 1)
+    assert main(practised(1)) == 0
+    line = next(line for line in capsys.readouterr().out.splitlines() if "J/m" in line)
+    assert "by learned" in line and "tick [µs]" in line
+
+
 WRONG = [
+    (
+        ["teach", "--lesson", "practice", "--out", "rules.skills"],
+        2,
+        "no rules or no profiles of go2 to practise",
+    ),
+    (["teach", "--lesson", "practice", "--policy", "a.toml", "--out", "go2.skills"], 2, "leave --policy out"),
     ([*TURN, "none.skills"], 3, "no file none.skills: a book is wanted"),
     ([*TURN, "rules.json"], 3, "rules.json is no skillbook; what was exported, or rules as JSON, becomes"),
     (

@@ -10,9 +10,10 @@ import pytest
 from gaitwright.control.learned.controller import LearnedController
 from gaitwright.control.learned.law import LAYOUT
 from gaitwright.control.numerical import NumericalController
-from gaitwright.control.takeover import STAYS_BACK, TAKES_OVER, UNDECIDED, Drive, Takeover
+from gaitwright.control.takeover import STAYS_BACK, STRETCH, TAKES_OVER, UNDECIDED, Drive, Takeover
 from gaitwright.gait.desired_cycle import desired_cycle
 from gaitwright.ground.scene import load_scene
+from gaitwright.knowledge.trust import GRADES, Grade
 from gaitwright.learning.profile_lessons import taught
 from gaitwright.locomotion import Brain
 from gaitwright.plant.mujoco.simulation import MujocoPlant
@@ -45,10 +46,12 @@ def drives(
     call: Callable[[float], SkillCall] = lambda time: trot(),
     speed: Callable[[float], float] = lambda time: trot().velocity[0],
     own: Callable[[float], float] = lambda time: 1.0,
+    grade: Grade | None = None,
 ) -> list[Drive]:
     """Who drives at each tick. `speed`: that is asked for then; `own`: share of the torques that is the
     profile's."""
-    takeover, was, out = Takeover(learned(), DT), UNDECIDED, []
+    grades = {} if grade is None else {"trot": grade}
+    takeover, was, out = Takeover(learned(), DT, grades), UNDECIDED, []
     for time in DT * np.arange(round(seconds / DT)):
         played = np.zeros(LAYOUT.size(DOG.n))
         played[-1] = own(float(time))
@@ -109,6 +112,8 @@ def test_where_most_torques_are_foreign_for_a_cycle_it_stays_back_for_a_while():
         [("numerical", 0.1), ("learned", until), ("numerical", STAYS_BACK), ("learned", 2.9 - until)],
     )
     assert found[-1].foreign < 0.01
+    ((time, skill),) = found[-1].handed_back
+    assert skill == "trot" and time == pytest.approx(0.1 + until, abs=2 * DT), "it is remembered"
 
 
 def test_a_stumble_is_not_handed_back():
@@ -126,6 +131,33 @@ def test_who_stays_back_does_so_whatever_is_asked_for_meanwhile():
     back = next(k for k, drive in enumerate(found) if k > 100 and drive.driver == "numerical")
     assert 1.0 < back * DT < 1.3
     assert {drive.driver for drive in found[back : back + round(STAYS_BACK / DT) - 1]} == {"numerical"}
+
+
+# --- trust -----------------------------------------------------------------------------------------
+def test_an_apprentice_watches_an_assistant_drives_in_stretches_and_a_partner_all_the_way():
+    assert_spells(drives(1.0, grade="apprentice"), [("numerical", 1.0)])
+    turns = [("numerical", TAKES_OVER), *[("learned", STRETCH), ("numerical", STRETCH)] * 2]
+    assert_spells(drives(TAKES_OVER + 4 * STRETCH, grade="assistant"), turns)
+    assert_spells(drives(3.0, grade="partner"), [("numerical", 0.1), ("learned", 2.9)])
+
+
+@pytest.mark.parametrize("grade", GRADES)
+def test_only_a_skilled_one_drives_by_a_rule_that_is_not_firm_and_none_without_a_rule(grade):
+    parted, plain = replace(trot(), firm=False, ruled=True), replace(trot(), firm=False)
+    wanted = [("numerical", 0.1), ("learned", 0.4)] if grade == "skilled" else [("numerical", 0.5)]
+    assert_spells(drives(0.5, lambda time: parted, grade=grade), wanted)
+    assert_spells(drives(0.5, lambda time: plain, grade=grade), [("numerical", 0.5)])
+    beyond = drives(0.5, lambda time: parted, speed=lambda time: 0.9, grade=grade)
+    assert_spells(beyond, [("numerical", 0.5)])
+
+
+def test_amid_a_stumble_nobody_changes_and_what_is_asked_for_is_noted():
+    driven = drives(0.5)[-1]
+    takeover = Takeover(learned(), DT)
+    assert takeover.kept(driven.asked, driven) is driven
+    unsure = replace(trot(), firm=False, because="not known")
+    kept = takeover.kept(unsure, driven)
+    assert (kept.driver, kept.asked, kept.call) == ("learned", unsure, replace(unsure, driver="learned"))
 
 
 # --- in physics ------------------------------------------------------------------------------------

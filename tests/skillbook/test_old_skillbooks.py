@@ -10,6 +10,7 @@ from contextlib import closing
 from pathlib import Path
 
 import pytest
+from lived import some_history
 from profiles import profile_notes, some_profiles
 from schooling import random_lesson, tell_in, written_by
 
@@ -70,6 +71,16 @@ def test_the_profiles_of_a_book_of_the_third_version_are_there(tmp_path):
     assert len(Skillbook.load(path).profiles) == 4
 
 
+def test_the_trust_in_a_book_of_the_fourth_version_goes_on(tmp_path):
+    path = written_by(4, tmp_path / "fourth.skills")
+    book = Skillbook.load(path)
+    assert book == import_text((HERE / "version_4.txt").read_text(encoding="utf-8"))
+    assert (book.name, book.profiles, book.trust) == ("the fourth", some_profiles(), some_history())
+    with open_for_learning(path) as ledger:
+        ledger.trust(some_history()[1:2])
+    assert Skillbook.load(path).trust == (*some_history(), some_history()[1])
+
+
 def in_old_trees(rulebook, book):
     """What the rules say in the trees that there were when the book was written."""
     trees = book.rulebook.forest.names
@@ -101,5 +112,5 @@ def test_a_newer_version_reads_and_teaches_older_books(first, rng, monkeypatch):
         with closing(sqlite3.connect(first)) as db:
             assert db.execute("SELECT count(*) FROM maps").fetchone() == (0,)
         assert Skillbook.load(first) == taught
-    with pytest.raises(BadFile, match="book version 4, this one reads up to 3"):
+    with pytest.raises(BadFile, match="book version 5, this one reads up to 4"):
         Skillbook.load(first)

@@ -84,6 +84,8 @@ class Trial:
     """Whether it is told its state, or estimates it."""
     without: LeftOut | None = None
     """What the learned controller is to do without."""
+    alarmed: bool = False
+    """Whether the learned controller is asked for no velocity while it stumbles."""
 
     @property
     def is_imperfect(self) -> bool:
@@ -196,7 +198,7 @@ def brain_for(trial: Trial, robot: Robot, scene: Scene) -> Brain:
     profiles = {trial.skill: (first,)}
     if trial.then and trial.then.skill != trial.skill:
         profiles[trial.then.skill] = (profile_of(trial.robot, trial.then.skill),)
-    brain = brain.with_profiles(profiles)
+    brain = brain.with_profiles(profiles, alarmed=trial.alarmed)
     return leaving_out(brain, trial.without) if trial.without else brain
 
 

@@ -26,7 +26,8 @@ LESSONS = {
     "skills": "which skill to use where",
     "profiles": "the torques of each skill, from the numerical controller",
     "operators": "how a leg gets over an obstacle, from the numerical controller",
-    "all": "all of them",
+    "all": "all of these",
+    "practice": "trips in physics by what the book holds: trust grows or falls, own mistakes teach",
 }
 BOOK_TASKS = {
     "merge": "two books to one",
@@ -36,6 +37,8 @@ BOOK_TASKS = {
     "edit": "BOOK takes in what a person changed in a profile's TABLE",
     "undo": "BOOK forgets the last lesson that counts",
     "forget": "BOOK forgets a LESSON by its name",
+    "trust": "how far the learned controller is trusted with the skills of BOOK; with a SKILL: its history; "
+    "with a GRADE: now it is apprentice, assistant, partner or skilled",
 }
 """What `gaitwright books` can do."""
 LONGEST = 3600.0

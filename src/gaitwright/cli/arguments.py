@@ -53,7 +53,10 @@ def add_mission(parser: argparse.ArgumentParser) -> None:
         "drivers hybrid and learned: the rules that choose the skills, and the torque profiles, of this book"
     )
     parser.add_argument("--skillbook", metavar="FILE", help=rules)
-    own = "let the robot learn from its own mistakes on the way (a fall, slipping feet, no way made) into it"
+    own = (
+        "let the robot learn into it: from its own mistakes on the way (a fall, slipping feet, a failed "
+        "step, more torque than there is, no way made), and how far the learned controller can be trusted"
+    )
     parser.add_argument("--learn", action="store_true", help=own)
     add_run(parser, seconds=120.0)
 
@@ -194,7 +197,7 @@ def add_teach(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--from", dest="start", metavar="BOOK", help=start)
     policy = "your own rules in order in a TOML file, see docs/teaching.md (the scripted teacher's)"
     parser.add_argument("--policy", metavar="FILE", help=policy)
-    trips = "trips that the pupil drives with the teacher watching (40)"
+    trips = "trips that the pupil drives with the teacher watching (40), or of practice (6)"
     parser.add_argument("--trips", type=count, metavar="N", help=trips)
     parser.add_argument("--seed", type=seed, default=0, metavar="N", help="draws the trips (0)")
     live = "teach in person: on a mission (--scene, --goal) or a recording; `help` lists what you can say"
@@ -234,9 +237,9 @@ def add_books(parser: argparse.ArgumentParser) -> None:
         "files",
         nargs="+",
         metavar="FILE",
-        help="the books, or the text to import; a skill (confirm), a lesson (forget), a table (edit)",
+        help="the books, or the text to import; a skill (confirm, trust), a lesson (forget), a table (edit)",
     )
-    out = "the new book, or where the text goes (export: the standard output; confirm, undo, forget: none)"
+    out = "the new book, or where the text goes (export: the standard output; merge, import: needed)"
     parser.add_argument("--out", metavar="FILE|-", help=out)
     accept = "edit: take it in, after it was shown in physics (only show it)"
     parser.add_argument("--accept", action="store_true", help=accept)

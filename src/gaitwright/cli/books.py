@@ -1,4 +1,4 @@
-"""`gaitwright books`: two skillbooks joined to one; a skillbook as text, and back; lessons taken back."""
+"""`gaitwright books`: two skillbooks joined to one; one as text, and back; lessons taken back; trust."""
 
 import json
 import sys
@@ -6,7 +6,7 @@ from argparse import Namespace
 from dataclasses import asdict, replace
 from pathlib import Path
 
-from gaitwright.cli import book_lessons, profiles
+from gaitwright.cli import book_lessons, profiles, trust
 from gaitwright.cli.book_files import SQLITE, check_there, facts_of, new_file, skillbook_of
 from gaitwright.cli.console import remark, show_pairs, show_prose, working
 from gaitwright.cli.explain_text import counted
@@ -27,8 +27,9 @@ FILES = {
     "undo": ("BOOK",),
     "forget": ("BOOK", "LESSON"),
     "edit": ("BOOK", "TABLE"),
+    "trust": ("BOOK", "[SKILL", "[GRADE]]"),
 }
-"""What each task is given."""
+"""What each task is given; in brackets what may be left out."""
 
 HEARD_AGAIN = "its lessons, heard again, make these rules"
 MADE_OTHERS = "its lessons, heard again, make other rules: the text was changed, or another version taught it"
@@ -39,9 +40,11 @@ NO_LESSONS = "there are no lessons in it: its rules are taken as they stand"
 def run(args: Namespace) -> int:
     check_json(args.json)
     wanted = FILES[args.task]
-    if len(args.files) != len(wanted):
-        given = " ".join(args.files) or "none"
-        raise WrongUse(f"books {args.task} takes {len(wanted)}: {' '.join(wanted)}; got {given}")
+    least = sum(not word.startswith("[") for word in wanted)
+    if not least <= len(args.files) <= len(wanted):
+        given, number = " ".join(args.files) or "none", f"{least} to {len(wanted)}"
+        number = number if least < len(wanted) else str(least)
+        raise WrongUse(f"books {args.task} takes {number}: {' '.join(wanted)}; got {given}")
     if args.base is not None and args.task != "merge":
         raise WrongUse(f"--base is the book that two come from: books {args.task} has no use for it")
     if args.accept and args.task != "edit":
@@ -183,6 +186,7 @@ IN_PLACE = {
     "undo": book_lessons.undo,
     "forget": book_lessons.forget,
     "edit": profiles.edit,
+    "trust": trust.run,
 }
 """The tasks that change a book itself."""
 TASKS = {"merge": merge_books, "export": export_book, "import": import_book, **IN_PLACE}

@@ -7,13 +7,18 @@ from pathlib import Path
 
 from gaitwright.cli import trips
 from gaitwright.cli.console import remark
-from gaitwright.cli.driving import operators_for, profiles_for
+from gaitwright.cli.driving import grades_for, operators_for, profiles_for
 from gaitwright.cli.output import numbered_folder
 from gaitwright.cli.teach import taught
 from gaitwright.cli.teach_profiles import learned
+from gaitwright.cli.trip_rows import show_trips
 from gaitwright.control.takeover import HYBRID, NUMERICAL
+from gaitwright.learning.growth import Returns
+from gaitwright.learning.practice import after_trip
 from gaitwright.learning.teacher import teacher_for
 from gaitwright.model.robot import Robot
+from gaitwright.record.metrics import Report
+from gaitwright.record.recording import Recording
 from gaitwright.signals import Mission
 from gaitwright.skillbook.book import Skillbook
 from gaitwright.skillbook.writer import open_for_learning
@@ -44,17 +49,34 @@ def run(args: Namespace) -> int:
         before = Namespace(
             **vars(args) | {"out": str(Path(args.out) / "first"), "json": None, "aside": args.json == "-"}
         )
-        setting = trips.set_up(robot, field(robot, args.seed), DefaultChooser(robot), "qp")
-        code = trips.run(setting, Mission((GOAL,), driver=NUMERICAL), before)
+        setting, driven = trips.set_up(robot, field(robot, args.seed), DefaultChooser(robot), "qp"), []
+
+        def keep(recording: Recording, _: Returns) -> None:
+            driven.append(("first", recording.report()))
+
+        code = trips.run(setting, Mission((GOAL,), driver=NUMERICAL), before, after=keep)
         if code == 130:
             return code
         remark(SCHOOLING)
         book = learn(robot, Path(args.out) / "go2.skills", args)
         remark(SECOND)
-        return trips.run(by_book(robot, book, args), Mission((GOAL,), driver=HYBRID), args)
+        return second(robot, book, args, driven)
     finally:
         if folder and not any(folder.iterdir()):
             folder.rmdir()
+
+
+def second(robot: Robot, book: Path, args: Namespace, driven: list[tuple[str, Report]]) -> int:
+    """The crossing by what was learned, what it does to the book, and both crossings side by side."""
+
+    def after(recording: Recording, handed_back: Returns) -> None:
+        driven.append(("second", recording.report()))
+        with open_for_learning(book) as ledger:
+            for sentence in after_trip(ledger, recording, handed_back, "the second crossing"):
+                remark(sentence)
+        show_trips(driven, to_stderr=args.json == "-")
+
+    return trips.run(by_book(robot, book, args), Mission((GOAL,), driver=HYBRID), args, after=after)
 
 
 def field(robot: Robot, seed: int) -> trips.Scene:
@@ -76,4 +98,5 @@ def by_book(robot: Robot, path: Path, args: Namespace) -> trips.Setting:
     chooser = RuleChooser(robot, Skillbook.load(path).rulebook)
     setting = trips.set_up(robot, field(robot, args.seed + 1), chooser, "qp")
     brain = setting.brain.with_operators(operators_for(robot, str(path)))
-    return replace(setting, brain=brain.with_profiles(profiles_for(robot, str(path))))
+    brain = brain.with_profiles(profiles_for(robot, str(path)), grades_for(robot, str(path)))
+    return replace(setting, brain=brain)

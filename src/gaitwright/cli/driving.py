@@ -5,6 +5,7 @@ from gaitwright.cli.console import remark, working
 from gaitwright.control.learned.profile import Profile
 from gaitwright.errors import WrongUse, short
 from gaitwright.gait.operators import Operator
+from gaitwright.knowledge.trust import Grade, grades_in
 from gaitwright.learning.operator_books import operators_in
 from gaitwright.learning.profile_books import Playable, playable
 from gaitwright.model.robot import Robot
@@ -18,6 +19,14 @@ def profiles_for(robot: Robot, path: str) -> dict[str, list[Profile]]:
     for sentence in found.outdated.values():
         remark(f"{sentence}, and goes on to; {again(robot, path)}")
     return found.profiles
+
+
+def grades_for(robot: Robot, path: str) -> dict[str, Grade]:
+    """How far the learned controller is trusted with each skill, by the history in a book of this robot."""
+    if not is_skillbook(path):
+        return {}
+    book = Skillbook.load(path)
+    return grades_in(book.trust) if book.robot == robot.name else {}
 
 
 def profiles_to_play(robot: Robot, path: str) -> dict[str, list[Profile]]:

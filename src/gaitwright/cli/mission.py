@@ -6,12 +6,11 @@ from dataclasses import replace
 from gaitwright.cli import trips
 from gaitwright.cli.book_files import rulebook_of
 from gaitwright.cli.console import remark
-from gaitwright.cli.driving import operators_for, profiles_for, profiles_to_play
+from gaitwright.cli.driving import grades_for, operators_for, profiles_for, profiles_to_play
 from gaitwright.control.takeover import HYBRID, LEARNED
 from gaitwright.errors import WrongUse
-from gaitwright.learning.live import LiveLessons
-from gaitwright.learning.notes import pupil_of
-from gaitwright.learning.own_mistakes import lesson_of
+from gaitwright.learning.growth import Returns
+from gaitwright.learning.practice import after_trip
 from gaitwright.model.robot import Robot
 from gaitwright.record.recording import Recording
 from gaitwright.signals import Mission
@@ -20,6 +19,7 @@ from gaitwright.skills.chooser import DefaultChooser
 from gaitwright.skills.rule_chooser import RuleChooser
 from gaitwright.stages import Chooser
 
+NOTHING = "nothing went wrong that the robot noticed: nothing was learned, and trust has no other grade"
 BY_BOOK = (HYBRID, LEARNED)
 """Drivers that go by a skillbook."""
 
@@ -52,7 +52,7 @@ def run(args: Namespace) -> int:
         plain = trips.set_up(robot, scene, chooser, args.distribution, args.sensing)
         setting = with_profiles(plain, args)
         name = f"{scene.name} (seed {args.seed})"
-        return trips.run(setting, mission, args, after=lambda recording: learn(ledger, recording, name))
+        return trips.run(setting, mission, args, after=lambda trip, back: learn(ledger, trip, back, name))
 
 
 def with_profiles(setting: trips.Setting, args: Namespace) -> trips.Setting:
@@ -63,21 +63,15 @@ def with_profiles(setting: trips.Setting, args: Namespace) -> trips.Setting:
     find = profiles_to_play if args.driver == LEARNED else profiles_for
     profiles, brain = find(setting.robot, args.skillbook), setting.brain
     brain = brain.with_operators(operators_for(setting.robot, args.skillbook))
-    return replace(setting, brain=brain.with_profiles(profiles) if profiles else brain)
+    if profiles:
+        brain = brain.with_profiles(profiles, grades_for(setting.robot, args.skillbook))
+    return replace(setting, brain=brain)
 
 
-def learn(ledger: Ledger, recording: Recording, name: str) -> None:
-    """What the robot's own mistakes teach it, told and put into the book."""
-    room = LiveLessons(ledger, pupil_of(ledger.book))
-    told = lesson_of(recording, room.pupil, name)
-    if told is None:
-        remark("nothing went wrong that the robot noticed: nothing was learned")
-        return
-    tried = room.tried(replace(told, id=room.unused(told.id)))
-    room.keep(tried)
-    remark(f"{told.because}: {told.action.skill} would have been better, learned as {tried.told.id!r}")
-    for event in tried.taken.events:
-        remark(f"  {event.why}")
+def learn(ledger: Ledger, recording: Recording, handed_back: Returns, name: str) -> None:
+    """What the robot's own mistakes teach it, and what the trip does to the trust in it: into the book."""
+    for sentence in after_trip(ledger, recording, handed_back, name) or [NOTHING]:
+        remark(sentence)
 
 
 def chooser_of(robot: Robot, args: Namespace) -> Chooser:

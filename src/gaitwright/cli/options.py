@@ -87,7 +87,8 @@ COMMANDS = {
         "learned drives real ones. With --live you are the teacher, on a mission in physics or on a "
         "recording: stop, say what would be right, see what that changes, keep it or not. Every lesson is in "
         "the file before the next, an interrupt keeps it, and the same command goes on. --lesson profiles "
-        "takes the torques of every skill from the numerical controller, for drivers learned and hybrid.",
+        "takes the torques of every skill from the numerical controller, for drivers learned and hybrid; "
+        "--lesson practice drives trips in physics by both.",
         (
             "gaitwright teach --lesson all --robot go2 --out go2.skills",
             "gaitwright teach --live --scene slippery:0.3 --goal 4 0 --out go2.skills",
@@ -116,11 +117,12 @@ COMMANDS = {
         "over by these. confirm, undo and forget change BOOK itself, and say what changed: confirm takes in "
         "a skill that `gaitwright teach` proposed by analogy, undo forgets the last lesson that counts (what "
         "was confirmed together counts as one), forget a lesson, or an edited profile, by its name, edit "
-        "takes in what you changed in a profile's table (`gaitwright skills --profile`).",
+        "takes in what you changed in a profile's table (`gaitwright skills --profile`). trust shows how far "
+        "the learned controller is trusted with each skill, and sets it.",
         (
             "gaitwright books merge mine.skills yours.skills --out both.skills",
-            "gaitwright books export mine.skills --out mine.txt     # without --out: to the standard output",
             "gaitwright books confirm mine.skills walk-backward     # `books undo` takes it back",
+            "gaitwright books trust mine.skills trot partner     # without a skill: all of them",
         ),
     ),
     "operators": Command(

@@ -45,6 +45,8 @@ def run(args: Namespace) -> int:
     robot, path = find_robot(args.robot, args.package), settled(args.out, "--out")
     teacher = teacher_for(robot) if args.policy is None else ScriptedTeacher(policy_in(args.policy, robot))
     is_new = not is_book_of(robot, path, args)
+    if args.lesson == "practice":
+        import_module("gaitwright.cli.teach_practice").check(args.start if is_new else args.out, robot, args)
     if is_new:
         begun(robot, new_file(args.out, "skillbook").stem, args).save(path)
     ledger = None
@@ -76,6 +78,8 @@ def teach(robot: Robot, teacher: ScriptedTeacher, ledger: Ledger, args: Namespac
         figures |= go_to_school(robot, teacher, ledger, args)
     if args.lesson in ("operators", "all"):
         figures["operators"] = import_module("gaitwright.cli.teach_operators").run(robot, ledger, args)
+    if args.lesson == "practice":
+        figures["practice"] = import_module("gaitwright.cli.teach_practice").run(robot, ledger, args)
     if args.lesson in ("profiles", "all"):
         figures["torque_profiles"] = import_module("gaitwright.cli.teach_profiles").run(robot, ledger, args)
         suggest(ledger.book, args)
@@ -98,6 +102,8 @@ def check_live(args: Namespace) -> None:
         raise WrongUse(
             f"{args.lesson} come from the numerical controller, without trips: leave --trips and --policy out"
         )
+    if args.lesson == "practice" and args.policy is not None:
+        raise WrongUse("practice goes by the rules that the book holds: leave --policy out")
     if args.live and args.lesson != "skills":
         raise WrongUse("with --live a person teaches skills: leave --lesson out")
     if not args.live and where:
@@ -138,9 +144,10 @@ def begun(robot: Robot, name: str, args: Namespace) -> Skillbook:
         return Skillbook.new(FOREST, robot.name, name, args.seed)
     old = skillbook_of(args.start)
     check_teachable(old, args.start)  # before there is a new one
-    is_own = old.robot == robot.name
-    torques = {"profiles": old.profiles if is_own else (), "operators": old.operators if is_own else ()}
-    return replace(old.forked(name), robot=robot.name, seed=args.seed, **torques)
+    book = replace(old.forked(name), robot=robot.name, seed=args.seed)
+    if old.robot != robot.name:
+        return replace(book, profiles=(), trust=(), operators=())
+    return book if book.profiles else replace(book, trust=())
 
 
 def check_teachable(book: Skillbook, path: Path | str) -> None:

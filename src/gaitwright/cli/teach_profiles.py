@@ -8,7 +8,7 @@ from typing import Any
 from gaitwright.cli.console import remark, show_table, working
 from gaitwright.errors import BadFile
 from gaitwright.learning.profile_books import Playable, playable
-from gaitwright.learning.profile_school import STARTS, Learned, Task, learn
+from gaitwright.learning.profile_school import STARTS, Learned, Task, learn, lived
 from gaitwright.model.robot import Robot
 from gaitwright.skillbook.profile_notes import ProfileNotes
 from gaitwright.skillbook.writer import Ledger
@@ -72,7 +72,7 @@ def each_learned(workers: Workers, tasks: list[Task]) -> Iterator[Learned]:
 def keep(ledger: Ledger, learned: Learned) -> None:
     """Puts the profiles of a skill into the book, in place of those that were there."""
     others = [notes for notes in ledger.book.profiles if notes.skill != learned.skill]
-    ledger.keep_profiles([*others, *learned.profiles])
+    ledger.keep_profiles([*others, *learned.profiles], lived(learned))
 
 
 def said(learned: Learned) -> str:

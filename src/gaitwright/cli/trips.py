@@ -16,6 +16,7 @@ from gaitwright.control.numerical import Method
 from gaitwright.description.load import load_robot_and_notes
 from gaitwright.errors import WrongUse, told
 from gaitwright.ground.scene import Scene
+from gaitwright.learning.growth import Returns
 from gaitwright.locomotion import Brain, Lap
 from gaitwright.model.robot import Robot
 from gaitwright.navigation.navigator import Navigator
@@ -132,10 +133,10 @@ def run(
     mission: Mission,
     args: Namespace,
     push: Push | None = None,
-    after: Callable[[Recording], None] = lambda recording: None,
+    after: Callable[[Recording, Returns], None] = lambda recording, handed_back: None,
 ) -> int:
     """Simulates, reports, leaves the files in `args.out`; returns the exit code. `after` gets what was
-    recorded."""
+    recorded, and when a skill was handed back for not being the taught situation."""
     check_mechanics(mission.driver, args)
     broken = [breakdown(setting.robot, *asked) for asked in getattr(args, "fault", [])]
     senses = sensors_of(args)
@@ -174,7 +175,7 @@ def run(
         raise KeyboardInterrupt
     wall = perf_counter() - began
     code = finish(setting, recording, args, wall, checks)
-    after(recording)
+    after(recording, session.mind.memories.drive.handed_back)
     return code
 
 
@@ -234,7 +235,7 @@ def table_of(report: Report, wall: float, goal: bool) -> list[tuple[str, str]]:
             "velocity error",
             f"{report.velocity_error_mps:.4f} m/s, yaw rate {report.yaw_rate_error_radps:.4f} rad/s",
         ),
-        ("cost of transport", f"{report.cost_of_transport:.2f}"),
+        ("cost of transport", f"{report.cost_of_transport:.2f}, {report.energy_j_per_m:.0f} J/m"),
         ("roll, pitch (std)", f"{degrees(report.roll_std_rad):.2f}°, {degrees(report.pitch_std_rad):.2f}°"),
         ("skills", " → ".join(report.skills)),
         ("desirability", f"{report.desirability:.3f}"),

@@ -109,7 +109,6 @@ def lead(
     level = upright_rotation(normal, state.reference_pose[2])
     rotation_d, omega, omega_rate = pitching(level, pitch, state.command[2])
     target = target_fields(out)
-    target.extra_force_w[:] = 0.0
     feet = (target.feet_w, target.feet_velocity_w, target.feet_acceleration_w, target.extra_force_w)
     operators = Packed(terms, over)
     feet_reference(

@@ -86,7 +86,7 @@ def feet_reference(
     `state` are brought up to date with it, and the forces of operators `(legs, 3)` are written to `extra`.
     """
     period, duty = clock
-    p[:], v[:], a[:] = feet_w, 0.0, 0.0
+    p[:], v[:], a[:], extra[:] = feet_w, 0.0, 0.0, 0.0
     duration = swing_time(period, duty)
     capture = math.sqrt(height / GRAVITY)
     for leg in range(feet_w.shape[0]):
@@ -144,7 +144,7 @@ def meet(state, leg, operators, imagined, ground, s, x, y, radius, height):
             state.operator[leg], state.reach[leg] = 1.0, imagined
         else:
             kind, size = ahead_of(ground, state.origin[leg], x, y, radius, height)
-            found = operator_for(operators.terms, kind, size) if kind == HOLE or kind == SLOPE else -1
+            found = operator_for(operators.terms, kind, size) if kind in (HOLE, SLOPE) else -1
             if found >= 0:
                 state.operator[leg], state.reach[leg] = found + 1.0, size
     if state.operator[leg] > 0.0:
@@ -204,7 +204,7 @@ def raise_over(state, leg, kind, ground, operators, imagined, s, radius, table, 
     if state.operator[leg] == 0.0 and operators.terms.shape[0] > 0:
         over = obstacle_over(ground, origin, x, y, z, radius)
         if over > EVEN * height:
-            as_seen = BLOCK if kind == NOTHING or kind == HOLE or kind == SLOPE else kind
+            as_seen = BLOCK if kind in (NOTHING, HOLE, SLOPE) else kind
             found = operator_for(operators.terms, as_seen, over)
             state.operator[leg] = found + 1.0 if found >= 0 else UNTAUGHT
     number = int(state.operator[leg]) - 1

@@ -2,10 +2,12 @@
 
 from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import takewhile
 
 from gaitwright.errors import WrongUse
 from gaitwright.knowledge.memory import Action, said_of
 from gaitwright.knowledge.told import Told
+from gaitwright.knowledge.trust import History
 from gaitwright.learning.notes import pupil_of, with_steps
 from gaitwright.learning.older_books import told_by
 from gaitwright.learning.skill_pupil import SkillPupil
@@ -48,16 +50,17 @@ def merge(ours: Skillbook, theirs: Skillbook, base: Skillbook | None = None) -> 
     Where both were told different things at the very same moment ours stays. Whatever either was told since
     then and does by itself, the joined book does too, or a conflict says what it does instead. `base` is the
     book that both come from; it is found without being named, and checked where it is. Of each skill the
-    torque profiles are ours, or theirs where ours has none; their terrain operators of other names come
-    behind ours. Raises `WrongUse` where `base` is no such book,
-    or for a book whose rules rest on no lessons that can be told.
+    torque profiles are ours, or theirs where ours has none; what was lived through with them comes with
+    them, from both where both have the same. Their terrain operators of other names come behind ours. Raises
+    `WrongUse` where `base` is no such book, or for a book whose rules rest on no lessons that can be told.
     """
     merged = told_both(ours, theirs, base)
-    profiles, operators = profiles_of_both(ours, theirs), operators_of_both(ours, theirs)
-    if profiles == ours.profiles and operators == ours.operators:
+    profiles, trust = profiles_of_both(ours, theirs), trust_of_both(ours, theirs)
+    operators = operators_of_both(ours, theirs)
+    if (profiles, trust, operators) == (ours.profiles, ours.trust, ours.operators):
         return merged
     ancestors = with_ancestor(merged.book.ancestors, theirs)
-    book = replace(merged.book, profiles=profiles, operators=operators, ancestors=ancestors)
+    book = replace(merged.book, profiles=profiles, trust=trust, operators=operators, ancestors=ancestors)
     return replace(merged, book=book)
 
 
@@ -226,6 +229,30 @@ def profiles_of_both(ours: Skillbook, theirs: Skillbook) -> tuple[ProfileNotes, 
     known = {profile.skill for profile in ours.profiles}
     others = [profile for profile in theirs.profiles if profile.skill not in known]
     return tuple(sorted((*ours.profiles, *others), key=name_of))
+
+
+def trust_of_both(ours: Skillbook, theirs: Skillbook) -> History:
+    """Our history of trust, and what theirs went through since with profiles that the joined book has too."""
+    if ours.robot != theirs.robot:
+        return ours.trust
+    mine, others = (by_skill(book) for book in (ours, theirs))
+    shared = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(ours.trust, theirs.trust)))  # noqa: B905
+    known = list(ours.trust[shared:])
+    news = []
+    for entry in theirs.trust[shared:]:
+        if entry in known:  # joined before
+            known.remove(entry)
+        elif mine.get(entry.skill) in (None, others.get(entry.skill)):
+            news.append(entry)
+    return (*ours.trust, *news)
+
+
+def by_skill(book: Skillbook) -> dict[str, set[ProfileNotes]]:
+    """The torque profiles of each skill."""
+    found: dict[str, set[ProfileNotes]] = {}
+    for profile in book.profiles:
+        found.setdefault(profile.skill, set()).add(profile)
+    return found
 
 
 def operators_of_both(ours: Skillbook, theirs: Skillbook) -> tuple[OperatorNotes, ...]:

@@ -1,11 +1,12 @@
-"""The robot's own mistakes teach (thesis 6.4): a fall, feet that slip, no way made, in physics.
+"""The robot's own mistakes teach (thesis 6.4), in physics: motion bugs (a fall, feet that slip, a failed
+step, an illegal operation), and no way made.
 
 What a mistake tells is that the action in use was wrong: a negative instance. What would have been right
 nobody says; the pupil tries the next calmer action that she knows, and where that proves wrong too, the one
 after that.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -19,6 +20,7 @@ from gaitwright.learning.skill_pupil import SkillPupil, told_at
 from gaitwright.learning.teacher import Shown
 from gaitwright.model.kinematics import feet_over_time
 from gaitwright.numerics.geometry import GRAVITY, rotations
+from gaitwright.plant.names import JOINTS
 from gaitwright.record.recording import Recording
 from gaitwright.skills.library import LIBRARY
 
@@ -30,6 +32,11 @@ of their ticks."""
 STUCK, NO_WAY = 6.0, 0.3
 """No way is made where in such a time [s] the robot comes no farther than this share of its height, and
 there is somewhere to go."""
+NO_GROUND, CARRIES = 0.25, 0.02
+"""A step has failed where a foot that should carry bears less than this share of the weight so long [s]."""
+AT_LIMIT, NEARLY = 0.25, 0.999
+"""An illegal operation: a torque at this share of its limit for so long [s], which asks for more than the
+motor has, or a joint as long at its stop."""
 STOP = Action("stop")
 
 
@@ -47,7 +54,19 @@ def mistakes_in(recording: Recording) -> tuple[Mistake, ...]:
     time = np.array(trip["time"])
     if len(time) < 2:
         return ()
-    found = [fallen(trip, time), slipped(trip, time), stuck(trip, time)]
+    found = [*motion_bugs_in(trip), stuck(trip, time)]
+    return in_order(found)
+
+
+def motion_bugs_in(trip: Recording) -> tuple[Mistake, ...]:
+    """Those of the mistakes that a movement itself was, in order; the first of a kind. `trip`: without what
+    came after it, in which every number is one."""
+    time = np.array(trip["time"])
+    return in_order(law(trip, time) for law in (fallen, slipped, missed, overdone)) if len(time) > 1 else ()
+
+
+def in_order(found: Iterable[Mistake | None]) -> tuple[Mistake, ...]:
+    """Mistakes by their times."""
     return tuple(sorted((one for one in found if one is not None), key=lambda one: one.time))
 
 
@@ -82,6 +101,44 @@ def slipping(
     share = np.array(trip["load"]) / (robot.total_mass * GRAVITY)
     down = (share > 0.1) & np.array(trip["stance"]).astype(bool)
     return down & (speed > SLIPPING * np.sqrt(GRAVITY * robot.height)), down
+
+
+def missed(trip: Recording, time: Float[np.ndarray, " ticks"]) -> Mistake | None:
+    """The first step that found no ground."""
+    carries = np.array(trip["load"]) > CARRIES * trip.robot.total_mass * GRAVITY
+    lacking = np.array(trip["stance"]).astype(bool) & ~carries
+    found = [
+        (start, leg) for leg in range(trip.robot.n) for start in held_for(lacking[:, leg], NO_GROUND, trip)
+    ]
+    if not found:
+        return None
+    start, leg = min(found)
+    return Mistake(float(time[start]), f"foot {trip.robot.legs[leg]} found no ground at {time[start]:.1f} s")
+
+
+def overdone(trip: Recording, time: Float[np.ndarray, " ticks"]) -> Mistake | None:
+    """The first illegal operation: a torque that no motor gives, a joint at its stop."""
+    robot = trip.robot
+    torques, angles = (np.array(trip[name]).reshape(len(time), robot.n, 3) for name in ("tau", "q"))
+    kinds = {
+        "was asked for more torque than it has": np.abs(torques) >= NEARLY * robot.tau_max,
+        "stood at its stop": (angles <= robot.q_min) | (angles >= robot.q_max),
+    }
+    found = [
+        (start, f"{robot.legs[leg]} {JOINTS[joint]} {what} at {time[start]:.1f} s")
+        for what, seen in kinds.items()
+        for leg in range(robot.n)
+        for joint in range(3)
+        for start in held_for(seen[:, leg, joint], AT_LIMIT, trip)
+    ]
+    return Mistake(float(time[min(found)[0]]), min(found)[1]) if found else None
+
+
+def held_for(seen: Bool[np.ndarray, " ticks"], seconds: float, trip: Recording) -> list[int]:
+    """The ticks at which something begins that is then seen for so long [s]; the first alone."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], seen, [False]]).astype(np.int8)))
+    begins, ends = edges[::2], edges[1::2]
+    return begins[(ends - begins) * trip.dt >= seconds].tolist()[:1]
 
 
 def stuck(trip: Recording, time: Float[np.ndarray, " ticks"]) -> Mistake | None:

@@ -8,6 +8,7 @@ from gaitwright.control.learned.profile import Profile
 from gaitwright.control.takeover import LEARNED
 from gaitwright.errors import WrongUse
 from gaitwright.ground.scene import load_scene
+from gaitwright.knowledge.trust import Experience
 from gaitwright.learning.profile_books import notes_of
 from gaitwright.learning.profile_cells import cells_for
 from gaitwright.locomotion import Brain
@@ -58,6 +59,16 @@ def learn(task: Task) -> Learned:
     except WrongUse as error:
         return Learned(task.skill, why=str(error))
     return Learned(task.skill, tuple(map(notes_of, cells)), tried(task, cells))
+
+
+def lived(learned: Learned) -> list[Experience]:
+    """What the tries say of how far these profiles can be trusted."""
+    if learned.found is None:
+        return []
+    good, seconds = learned.found.kept_up, SECONDS - HANDED_OVER
+    drove = Experience(learned.skill, "drove", seconds, why="tried on the flat after it was taught")
+    fell = Experience(learned.skill, "bug", why="it fell when it was tried on the flat after it was taught")
+    return [Experience(learned.skill, "taught"), *[drove] * good, *[fell] * (STARTS - good)]
 
 
 def tried(task: Task, cells: list[Profile]) -> Try:

@@ -54,6 +54,8 @@ class Report:
     """SHA-256 of every sensed state and torque: equal for equal seeds on one machine."""
     faults: list[dict[str, Any]] = field(default_factory=list)
     """What was noticed to be broken: the fields of each `perception.fault_words.Fault`."""
+    energy_j_per_m: float = 0.0
+    """∫ Σ|τ q̇| dt over the distance [J/m]: the cost of transport times the weight."""
 
     def to_json(self) -> str:
         """As JSON; everything but `tick_us` is the same for the same seed."""

@@ -150,6 +150,7 @@ class Recording:
             seed=self.seed,
             state_hash=state_hash,
             faults=[asdict(fault) for fault in self.faults],
+            energy_j_per_m=cost * weight,
         )
 
     def save(self, path: str | Path) -> Path:

@@ -8,6 +8,7 @@ from pathlib import Path
 from gaitwright.errors import BadFile
 from gaitwright.knowledge.forest import Forest
 from gaitwright.knowledge.rules import Rulebook
+from gaitwright.knowledge.trust import History, fault_in_history
 from gaitwright.skillbook import store, text
 from gaitwright.skillbook.entries import (
     About,
@@ -21,6 +22,7 @@ from gaitwright.skillbook.entries import (
     rulebook_of,
     step_entry,
     steps_of,
+    trust_entries,
 )
 from gaitwright.skillbook.history import Ancestor, Step, all_told, forgotten
 from gaitwright.skillbook.operator_notes import OperatorNotes
@@ -47,6 +49,8 @@ class Skillbook:
     pupil: PupilNotes | None = None
     profiles: tuple[ProfileNotes, ...] = ()
     """Torque profiles, in the order of their names."""
+    trust: History = ()
+    """What the learned controller went through with each skill, in order."""
     operators: tuple[OperatorNotes, ...] = ()
     """Terrain operators, in the order in which they are tried."""
 
@@ -92,8 +96,9 @@ def entry_of(book: Skillbook) -> File:
     rulebook = rulebook_entry(book.rulebook)
     steps = tuple(step_entry(step) for step in book.steps)
     ancestors = tuple(ancestor_entry(a) for a in book.ancestors)
-    profiles, operators = profile_entries(book.profiles), operator_entries(book.operators)
-    return File(about_of(book), rulebook, steps, ancestors, book.pupil, profiles, operators)
+    profiles, trust = profile_entries(book.profiles), trust_entries(book.trust)
+    operators = operator_entries(book.operators)
+    return File(about_of(book), rulebook, steps, ancestors, book.pupil, profiles, trust, operators)
 
 
 def about_of(book: Skillbook) -> About:
@@ -101,8 +106,8 @@ def about_of(book: Skillbook) -> About:
     rules = book.rulebook
     counts = (len(book.steps), len(rules.rules), len(rules.preferences), len(rules.forest.trees))
     own = (book.name, book.robot, book.made_by, book.seed, rules.lessons)
-    others = len(book.ancestors), int(book.pupil is not None), len(book.profiles), len(book.operators)
-    return checked(About(*own, *counts, *others), About)
+    others = len(book.ancestors), int(book.pupil is not None), len(book.profiles), len(book.trust)
+    return checked(About(*own, *counts, *others, len(book.operators)), About)
 
 
 def book_of(entry: File, source: str) -> Skillbook:
@@ -111,10 +116,8 @@ def book_of(entry: File, source: str) -> Skillbook:
     steps = steps_of(entry.steps, rulebook.events, source)
     about, ancestors = entry.about, ancestors_of(entry.ancestors)
     check_notes(entry.pupil, steps, source)
-    for fault in (fault_in(entry.profiles), fault_in_operators(entry.operators)):
-        if fault:
-            raise BadFile(f"{source}: {fault}")
-    own = (about.made_by, about.seed, ancestors, entry.pupil, entry.profiles, entry.operators)
+    check_profiles(entry, source)
+    own = (about.made_by, about.seed, ancestors, entry.pupil, entry.profiles, entry.trust, entry.operators)
     return Skillbook(about.name, about.robot, rulebook, steps, *own)
 
 
@@ -129,6 +132,14 @@ def check_notes(notes: PupilNotes | None, steps: tuple[Step, ...], source: str) 
     actions = len({one.action for one in told})
     if notes.heard > len(told) or not is_sound(notes) or (told and actions_in(notes) > actions):
         raise BadFile(f"{source}: its pupil has learned from other lessons than it holds")
+
+
+def check_profiles(entry: File, source: str) -> None:
+    """Raises `BadFile` where one of a book's profiles or operators is damaged, or stands in it twice, or the
+    history of trust makes no sense."""
+    fault = fault_in(entry.profiles) or fault_in_history(entry.trust) or fault_in_operators(entry.operators)
+    if fault:
+        raise BadFile(f"{source}: {fault}")
 
 
 def _begun(rulebook: Rulebook, note: str) -> Step:

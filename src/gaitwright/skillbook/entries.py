@@ -27,6 +27,7 @@ from gaitwright.knowledge.lessons import Lesson
 from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.rules import Event, Rulebook
 from gaitwright.knowledge.told import Given, Told
+from gaitwright.knowledge.trust import Experience, History, fault_in_history
 from gaitwright.skillbook.history import Ancestor, How, Step
 from gaitwright.skillbook.operator_notes import OperatorNotes
 from gaitwright.skillbook.operator_notes import fault_in as fault_in_operators
@@ -53,6 +54,7 @@ class About(Strict, frozen=True):
     ancestors: Place = 0
     pupil: Annotated[int, Meta(ge=0, le=1)] = 0
     profiles: Place = 0
+    trust: Place = 0
     operators: Place = 0
 
 
@@ -123,6 +125,7 @@ class File(Strict, frozen=True):
     pupil: PupilNotes | None = None
     profiles: tuple[ProfileNotes, ...] = ()
     """In the order of their names."""
+    trust: History = ()
     operators: tuple[OperatorNotes, ...] = ()
     """In the order in which they are tried."""
 
@@ -196,6 +199,15 @@ def operator_entries(operators: Iterable[OperatorNotes]) -> tuple[OperatorNotes,
     fault = fault_in_operators(entries)
     if fault:
         raise WrongUse(f"a skillbook cannot hold this: {fault}")
+    return entries
+
+
+def trust_entries(history: Iterable[Experience]) -> History:
+    """A history of trust, checked against the limits of a file."""
+    entries = tuple(checked(entry, Experience) for entry in history)
+    fault = fault_in_history(entries)
+    if fault or len(entries) > MAX_EVENTS:
+        raise WrongUse(f"a skillbook cannot hold this: {fault or f'more than {MAX_EVENTS} entries of trust'}")
     return entries
 
 

@@ -16,6 +16,7 @@ import msgspec
 from gaitwright.errors import BadFile
 from gaitwright.knowledge.json_form import FORMAT, BookEntry, EventEntry, RuleEntry, TreeEntry, WishEntry
 from gaitwright.knowledge.rules import Rulebook
+from gaitwright.knowledge.trust import Experience
 from gaitwright.skillbook.entries import (
     About,
     AncestorEntry,
@@ -41,6 +42,7 @@ KEYS = {
     "events": ("step", "place"),
     "pupil": ("place",),
     "profiles": ("name",),
+    "trust": ("place",),
     "operators": ("place",),
 }
 """The key columns of each table, in an order in which rows can be written."""
@@ -140,6 +142,11 @@ def change_profiles(
     put(db, profile_rows(profile for name, profile in now.items() if was.get(name) != profile))
 
 
+def trust_rows(history: Iterable[Experience], first: int = 0) -> Rows:
+    """The rows of entries of trust, the first of them at a place."""
+    return {("trust", (k,)): encoded(entry) for k, entry in enumerate(history, first)}
+
+
 def operator_rows(operators: Iterable[OperatorNotes]) -> Rows:
     """The rows of terrain operators, in their order."""
     return {("operators", (place,)): encoded(operator) for place, operator in enumerate(operators)}
@@ -177,8 +184,10 @@ def read(db: sqlite3.Connection, source: str) -> File:
     notes = _row_of(_read(db, "pupil", PupilNotes, source), about.pupil, "pupils", source)
     rulebook = BookEntry(FORMAT, trees, rules, wishes, events, about.lessons)
     profiles = _profiles(_read(db, "profiles", ProfileNotes, source), about.profiles, source)
+    trust = _row_of(_read(db, "trust", Experience, source), about.trust, "entries of trust", source)
     operators = _row_of(_read(db, "operators", OperatorNotes, source), about.operators, "operators", source)
-    return File(about, rulebook, steps, ancestors, notes[0] if notes else None, profiles, operators)
+    pupil = notes[0] if notes else None
+    return File(about, rulebook, steps, ancestors, pupil, profiles, trust, operators)
 
 
 def _read(db: sqlite3.Connection, table: str, kind: type[T], source: str) -> dict[tuple, T]:

@@ -43,12 +43,17 @@ CREATE TABLE profiles (name TEXT NOT NULL PRIMARY KEY,
     content TEXT NOT NULL, seal BLOB NOT NULL) STRICT, WITHOUT ROWID;
 """
 
+TRUST = """
+CREATE TABLE trust (place INTEGER NOT NULL PRIMARY KEY,
+    content TEXT NOT NULL, seal BLOB NOT NULL) STRICT;
+"""
+
 OPERATORS = """
 CREATE TABLE operators (place INTEGER NOT NULL PRIMARY KEY,
     content TEXT NOT NULL, seal BLOB NOT NULL) STRICT;
 """
 
-MIGRATIONS: tuple[str, ...] = (FIRST, PUPIL, PROFILES, OPERATORS)
+MIGRATIONS: tuple[str, ...] = (FIRST, PUPIL, PROFILES, TRUST, OPERATORS)
 """What makes each version from the one before. Books of every version load forever: only ever append."""
 
 LIMITS = {

@@ -57,7 +57,8 @@ def file_rows(entry: File) -> rows.Rows:
     found |= {("ancestors", (k,)): encoded(ancestor) for k, ancestor in enumerate(entry.ancestors)}
     if entry.pupil is not None:
         found["pupil", (0,)] = encoded(entry.pupil)
-    found |= rows.profile_rows(entry.profiles) | rows.operator_rows(entry.operators)
+    found |= rows.profile_rows(entry.profiles) | rows.trust_rows(entry.trust)
+    found |= rows.operator_rows(entry.operators)
     found |= rows.book_rows(entry.rulebook, range(len(entry.rulebook.rules)))
     start = 0
     for place, step in enumerate(entry.steps):

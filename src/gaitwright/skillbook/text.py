@@ -27,6 +27,7 @@ from gaitwright.knowledge.json_form import (
     TreeEntry,
     WishEntry,
 )
+from gaitwright.knowledge.trust import Experience
 from gaitwright.skillbook.entries import (
     About,
     AncestorEntry,
@@ -102,6 +103,7 @@ KINDS: dict[str, type] = {
     "event": EventEntry,
     "pupil": PupilNotes,
     "profile": ProfileNotes,
+    "trust": Experience,
     "operator": OperatorNotes,
 }
 
@@ -134,6 +136,8 @@ def _lines(entry: File) -> Iterator[tuple[str, Any]]:
         yield "pupil", entry.pupil
     for profile in entry.profiles:
         yield "profile", profile
+    for experience in entry.trust:
+        yield "trust", experience
     for operator in entry.operators:
         yield "operator", operator
 
@@ -171,6 +175,7 @@ class Draft:
     steps: list[tuple[StepLine, list[EventEntry]]] = field(default_factory=list)
     pupils: list[PupilNotes] = field(default_factory=list)
     profiles: list[ProfileNotes] = field(default_factory=list)
+    trust: list[Experience] = field(default_factory=list)
     operators: list[OperatorNotes] = field(default_factory=list)
 
 
@@ -231,6 +236,7 @@ def _take(draft: Draft, line: str) -> None:
             "wish": draft.wishes,
             "pupil": draft.pupils,
             "profile": draft.profiles,
+            "trust": draft.trust,
             "operator": draft.operators,
         }
         lists[word].append(value)
@@ -258,12 +264,13 @@ def _file(draft: Draft, source: str) -> File:
         len(ancestors),
         len(draft.pupils),
         len(profiles),
+        len(draft.trust),
         len(draft.operators),
     )
     about = About(b.name, b.robot, b.made_by, b.seed, b.lessons, *counts)
     rulebook = BookEntry(FORMAT, trees, rules, wishes, events, b.lessons)
-    pupil, operators = draft.pupils[0] if draft.pupils else None, tuple(draft.operators)
-    return File(about, rulebook, steps, ancestors, pupil, profiles, operators)
+    pupil, more = draft.pupils[0] if draft.pupils else None, (tuple(draft.trust), tuple(draft.operators))
+    return File(about, rulebook, steps, ancestors, pupil, profiles, *more)
 
 
 def _rule(rule: DraftRule, trees: list[str], source: str) -> RuleEntry:

@@ -10,6 +10,7 @@ from gaitwright.errors import BadFile, WrongUse
 from gaitwright.knowledge.json_form import MAX_EVENTS
 from gaitwright.knowledge.rules import Event, Rulebook
 from gaitwright.knowledge.told import Told
+from gaitwright.knowledge.trust import Experience
 from gaitwright.skillbook import rows
 from gaitwright.skillbook.book import Skillbook, about_of, book_of
 from gaitwright.skillbook.entries import (
@@ -19,6 +20,7 @@ from gaitwright.skillbook.entries import (
     operator_entries,
     profile_entries,
     step_entry,
+    trust_entries,
 )
 from gaitwright.skillbook.history import Step, forgotten, names_told
 from gaitwright.skillbook.operator_notes import OperatorNotes
@@ -75,10 +77,20 @@ class Ledger:
         rulebook = replace(rulebook, events=self.book.rulebook.events)
         return self._store(replace(self.book, rulebook=rulebook, pupil=notes), {})
 
-    def keep_profiles(self, profiles: Iterable[ProfileNotes]) -> Skillbook:
-        """Stores torque profiles in place of all that were in the book. Raises `WrongUse` where no file can
-        hold them."""
-        return self._store(replace(self.book, profiles=profile_entries(profiles)), {})
+    def keep_profiles(self, profiles: Iterable[ProfileNotes], lived: Iterable[Experience] = ()) -> Skillbook:
+        """Stores torque profiles in place of all that were in the book, and what was lived through with them.
+        Raises `WrongUse` where no file can hold them."""
+        return self._with_trust(replace(self.book, profiles=profile_entries(profiles)), lived)
+
+    def trust(self, lived: Iterable[Experience]) -> Skillbook:
+        """Stores more of what the learned controller went through. Raises `WrongUse` where no file can hold
+        it."""
+        return self._with_trust(self.book, lived)
+
+    def _with_trust(self, book: Skillbook, lived: Iterable[Experience]) -> Skillbook:
+        before = self.book.trust
+        trust = trust_entries((*before, *lived))
+        return self._store(replace(book, trust=trust), rows.trust_rows(trust[len(before) :], len(before)))
 
     def keep_operators(self, operators: Iterable[OperatorNotes]) -> Skillbook:
         """Stores terrain operators in place of all that were in the book, in the order in which they are

@@ -66,7 +66,7 @@ class RuleChooser:
         kept = {**applied(action, memory), RULE_IN_USE: str(ruling.rule)}
         call = carry_out(self.robot, action, route, sensed)
         is_firm = ruling.rule in self.firm
-        return replace(call, because=self.because(ruling), memory=kept, firm=is_firm)
+        return replace(call, because=self.because(ruling), memory=kept, firm=is_firm, ruled=True)
 
     def ruling(self, situation: Situation, memory: Mapping[str, Fact]) -> Ruling:
         """The rule for a situation: the one in use until its condition holds, else the first that fires."""

@@ -11,9 +11,10 @@ from gaitwright.bench.evidence.taught_missions import EXAMS, STARTS, Trip, sessi
 from gaitwright.bench.measurement import Figure, at_least, count
 from gaitwright.bench.trial import robot_named
 from gaitwright.control.learned.profile import Profile
+from gaitwright.knowledge.trust import grades_in
 from gaitwright.learning.notes import pupil_of, settle
 from gaitwright.learning.profile_books import playable
-from gaitwright.learning.profile_school import Task, learn
+from gaitwright.learning.profile_school import Task, learn, lived
 from gaitwright.learning.school import attend
 from gaitwright.learning.skill_pupil import SkillPupil
 from gaitwright.learning.teacher import ScriptedTeacher
@@ -40,6 +41,8 @@ class Course(NamedTuple):
     trip: Trip
     book: str
     plays: bool
+    is_trusted: bool = False
+    """Whether it plays as far as its book says that it is trusted; else as a partner."""
 
 
 class Driven(NamedTuple):
@@ -73,7 +76,8 @@ def learn_profiles(context: Context, path: Path) -> None:
     robot = robot_named("go2")
     found = context.each("profiles", learn, [Task(robot, skill, context.seed) for skill in skills])
     with open_for_learning(path) as ledger:
-        ledger.keep_profiles(notes for learned in found for notes in learned.profiles)
+        profiles = [notes for learned in found for notes in learned.profiles]
+        ledger.keep_profiles(profiles, [entry for learned in found for entry in lived(learned)])
 
 
 def go_on(context: Context, path: Path, done: int, trips: int) -> None:
@@ -116,7 +120,8 @@ def driven(course: Course) -> Driven:
     book = Skillbook.load(course.book)
     session = session_of(course.trip, book.rulebook)
     if course.plays:
-        session.brain = session.brain.with_profiles(profiles_in(course.book))
+        grades = grades_in(book.trust) if course.is_trusted else {}
+        session.brain = session.brain.with_profiles(profiles_in(course.book), grades)
     report = record(session, course.trip.seed, course.trip.scene).report()
     learned = report.driver_share.get("learned", 0.0)
     return Driven(report.arrived, report.falls > 0, learned, report.duration_s, report.stopped_because)

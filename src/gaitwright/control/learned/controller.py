@@ -24,10 +24,17 @@ from gaitwright.stages import Map, Now
 
 command_of = MotionTarget.layout.field("command")
 phase_of = MotionTarget.layout.field("phase")
+operator_of = MotionTarget.layout.field("operator")
 SAME_PERIOD = 1e-9
 """[s]"""
 SPEED_ROOM, TURN_ROOM = 0.04, 0.03
 """A velocity is covered so far beyond what was taught, over √(g h) and √(g/h)."""
+
+
+@kernel
+def is_beyond(asked):
+    """Whether a leg of a `MotionTarget` has an obstacle ahead that no terrain operator is for."""
+    return operator_of(asked).min() < 0.0
 
 
 @kernel
@@ -87,9 +94,10 @@ class LearnedController:
         return MotorCommand.of_row(out[self.where]), out
 
     def covers(self, gait: Gait, target: MotionTarget) -> bool:
-        """Whether there are profiles of a gait around the velocity that is asked for."""
+        """Whether there are profiles of a gait around the velocity that is asked for, and an operator for
+        each obstacle that a leg must be raised over, where there are operators at all."""
         cells = self.cells_of(gait)
-        if cells is None:
+        if cells is None or is_beyond(target.row):
             return False
         forward, left, turn = target.command.tolist()
         return cells.covers(forward, left, turn, *self.room)
