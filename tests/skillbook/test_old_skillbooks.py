@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from lived import some_history
-from profiles import profile_notes, some_profiles
+from profiles import profile_notes, some_operators, some_profiles
 from schooling import random_lesson, tell_in, written_by
 
 from gaitwright.errors import BadFile
@@ -81,6 +81,17 @@ def test_the_trust_in_a_book_of_the_fourth_version_goes_on(tmp_path):
     assert Skillbook.load(path).trust == (*some_history(), some_history()[1])
 
 
+def test_the_operators_of_a_book_of_the_fifth_version_are_there(tmp_path):
+    path = written_by(5, tmp_path / "fifth.skills")
+    book = Skillbook.load(path)
+    assert book == import_text((HERE / "version_5.txt").read_text(encoding="utf-8"))
+    assert book.name == "the fifth" and book.trust and book.profiles
+    assert book.operators == some_operators()
+    with open_for_learning(path) as ledger:
+        ledger.keep_operators(reversed(book.operators))
+    assert Skillbook.load(path).operators == some_operators()[::-1]
+
+
 def in_old_trees(rulebook, book):
     """What the rules say in the trees that there were when the book was written."""
     trees = book.rulebook.forest.names
@@ -112,5 +123,5 @@ def test_a_newer_version_reads_and_teaches_older_books(first, rng, monkeypatch):
         with closing(sqlite3.connect(first)) as db:
             assert db.execute("SELECT count(*) FROM maps").fetchone() == (0,)
         assert Skillbook.load(first) == taught
-    with pytest.raises(BadFile, match="book version 5, this one reads up to 4"):
+    with pytest.raises(BadFile, match="book version 6, this one reads up to 5"):
         Skillbook.load(first)

@@ -79,8 +79,8 @@ def test_another_programs_file_is_refused(tmp_path):
 
 
 def test_a_newer_book_is_refused(path):
-    alter(path, "PRAGMA user_version=5")
-    refused(path, "written by a newer Gaitwright: book version 5, this one reads up to 4")
+    alter(path, "PRAGMA user_version=6")
+    refused(path, "written by a newer Gaitwright: book version 6, this one reads up to 5")
     alter(path, "PRAGMA user_version=0")
     refused(path, "which never was")
     alter(path, "PRAGMA user_version=-5")
