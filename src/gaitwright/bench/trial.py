@@ -14,7 +14,9 @@ from gaitwright.bench.witness import Change, Seen, Witness
 from gaitwright.control.learned.profile import Profile
 from gaitwright.control.numerical import Method
 from gaitwright.description.load import load_robot
+from gaitwright.gait.operators import Operator
 from gaitwright.ground.scene import Scene
+from gaitwright.learning.operator_lessons import SHOWN_SIZE, Edit, learned_from
 from gaitwright.learning.profile_lessons import taught
 from gaitwright.locomotion import Brain
 from gaitwright.model.perturb import perturbed
@@ -84,6 +86,8 @@ class Trial:
     """Whether it is told its state, or estimates it."""
     without: LeftOut | None = None
     """What the learned controller is to do without."""
+    operators: bool = False
+    """Whether it gets over obstacles by what the numerical controller showed on one leg."""
     alarmed: bool = False
     """Whether the learned controller is asked for no velocity while it stumbles."""
 
@@ -199,6 +203,7 @@ def brain_for(trial: Trial, robot: Robot, scene: Scene) -> Brain:
     if trial.then and trial.then.skill != trial.skill:
         profiles[trial.then.skill] = (profile_of(trial.robot, trial.then.skill),)
     brain = brain.with_profiles(profiles, alarmed=trial.alarmed)
+    brain = brain.with_operators((operator_of(trial.robot),)) if trial.operators else brain
     return leaving_out(brain, trial.without) if trial.without else brain
 
 
@@ -215,6 +220,13 @@ def second_call(trial: Trial, robot: Robot) -> SkillCall:
 def profile_of(asked: str, skill: str, speed: float | None = None, turn: float | None = None) -> Profile:
     """The profile of a skill at a velocity, or as it is meant, taught once in a process."""
     return taught(robot_named(asked), skill, speed, turn)
+
+
+@lru_cache
+def operator_of(asked: str) -> Operator:
+    """The terrain operator that the numerical controller shows unasked, taught once in a process."""
+    robot = robot_named(asked)
+    return learned_from(Edit(robot, SHOWN_SIZE * robot.step_limit))
 
 
 @dataclass(frozen=True)

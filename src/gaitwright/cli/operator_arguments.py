@@ -34,4 +34,9 @@ def add_operators(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--accept", action="store_true", help=taken)
     parser.add_argument("--first", metavar="NAME", help="try this operator before all others")
     parser.add_argument("--forget", metavar="NAME", help="take an operator out of the book again")
+    played = "say which legs were under which operator in this recording"
+    parser.add_argument("--recording", metavar="FILE.npz", help=played)
+    parser.add_argument(
+        "--at", type=finite, metavar="T", help="--recording: at this time [s] (the whole trip)"
+    )
     parser.add_argument("--out", metavar="FILE.png", help="draw them")

@@ -5,6 +5,8 @@ from argparse import Namespace
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from gaitwright.cli.book_files import skillbook_of
 from gaitwright.cli.console import remark, show_prose, show_table, working
 from gaitwright.cli.output import check_json, settled, write_json
@@ -19,6 +21,8 @@ from gaitwright.learning.operator_lessons import RAISED, SHOWN_ON, Edit, learned
 from gaitwright.learning.operator_trials import Reached, Swung, swung
 from gaitwright.learning.profile_books import in_book
 from gaitwright.model.robot import Robot
+from gaitwright.record.channels import OPERATOR, REACH
+from gaitwright.record.recording import load
 from gaitwright.skillbook.book import Skillbook
 from gaitwright.skillbook.writer import open_for_learning
 from gaitwright.skills.library import find_skill
@@ -41,6 +45,8 @@ def run(args: Namespace) -> int:
         figures |= teach(robot, book, args)
     elif args.first is not None or args.forget is not None:
         known = changed(known, args)
+    elif args.recording is not None:
+        figures["legs"] = tell_recorded(known, args)
     else:
         tell(known, args)
     figures["operators"] = [facts_of(one) for one in known]
@@ -56,7 +62,10 @@ def check(args: Namespace) -> None:
     loose += ["--accept"] * args.accept
     if args.size is None and loose:
         raise WrongUse(f"{loose[0]} says what is taught: add --size, how large the obstacle is")
-    asked = [f"--{name}" for name in ("size", "first", "forget", "out") if getattr(args, name) is not None]
+    if args.at is not None and args.recording is None:
+        raise WrongUse("--at is a moment of a recording: name its file with --recording")
+    single = ("size", "first", "forget", "recording", "out")
+    asked = [f"--{name}" for name in single if getattr(args, name) is not None]
     if len(asked) > 1:
         raise WrongUse(f"one thing at a time: {' and '.join(asked)} do not go together")
 
@@ -100,6 +109,42 @@ def picture(robot: Robot, known: Sequence[Operator], args: Namespace) -> None:
 
             operators_picture(robot, known, path)
         remark(f"picture: {path}")
+
+
+# --- what was done -----------------------------------------------------------------------------------
+def tell_recorded(known: Sequence[Operator], args: Namespace) -> list[dict]:
+    """Which legs were under which operator, at a moment or in the whole trip."""
+    recording = load(args.recording).of_trip()
+    numbers, reach = recording[OPERATOR], recording[REACH]
+    if np.isnan(numbers).all():
+        raise WrongUse(f"{short(args.recording)} was made before there were terrain operators")
+    if args.at is not None:
+        time = recording["time"]
+        if not time[0] <= args.at <= time[-1]:
+            raise WrongUse(f"--at {args.at:g}: the recording goes from {time[0]:g} to {time[-1]:g} s")
+        tick = int(np.abs(time - args.at).argmin())
+        numbers, reach = numbers[tick : tick + 1], reach[tick : tick + 1]
+    found = [
+        {"leg": leg, "operator": name_of(number, known), "ticks": int(here.sum()), "reach_m": float(far)}
+        for k, leg in enumerate(recording.robot.legs)
+        for number in np.unique(numbers[:, k][numbers[:, k] != 0.0])
+        for here in [numbers[:, k] == number]
+        for far in [reach[here, k].max()]
+    ]
+    if args.json != "-":
+        rows = [(f["leg"], f["operator"], str(f["ticks"]), f"{100.0 * f['reach_m']:.1f} cm") for f in found]
+        remark("no leg was under an operator" if not rows else f"legs under an operator in {args.recording}:")
+        show_table(("leg", "operator", "ticks", "at most"), rows, right=("ticks", "at most"))
+    return found
+
+
+def name_of(number: float, known: Sequence[Operator]) -> str:
+    """What an operator is called that a recording knows by its number."""
+    if number < 0.0:
+        return "none is for it: left to the numerical controller's law"
+    return (
+        known[int(number) - 1].name if number <= len(known) else f"number {int(number)}, no more in the book"
+    )
 
 
 # --- changing --------------------------------------------------------------------------------------

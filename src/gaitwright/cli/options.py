@@ -135,7 +135,7 @@ COMMANDS = {
         (
             "gaitwright operators go2.skills",
             "gaitwright operators go2.skills --size 0.06 --leg FL --cycle over.json --accept",
-            "gaitwright operators go2.skills --first 'over a block'     # --forget takes it out again",
+            "gaitwright operators go2.skills --recording run.npz     # which legs were under which",
         ),
     ),
     "bench": Command(

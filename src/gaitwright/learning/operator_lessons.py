@@ -127,12 +127,11 @@ class Swing:
     """Columns of the Jacobian of the contact point, ground frame [m]."""
 
 
-def swings(edit: Edit, operator: Operator, size: float, seed: int, leg: int | None = None) -> Swing:
-    """The mean swing of a leg that takes an obstacle of that size for seen; without one for 0."""
-    robot = edit.robot
-    leg = edit.number if leg is None else leg
+def swings(edit: Edit, operator: Operator, size: float, seed: int) -> Swing:
+    """The mean swing of the leg, where it takes an obstacle of that size for seen; without one for 0."""
+    robot, leg = edit.robot, edit.number
     offset, found = 0.0, []
-    for lap in driven(edit, operator, size, seed, leg):
+    for lap in driven(edit, operator, size, seed):
         offset, gait = lap.call.gait.offsets[leg], lap.call.gait
         own = (lap.target.phase + offset) % 1.0
         if own > gait.duty and not lap.target.stance[leg]:
@@ -141,13 +140,13 @@ def swings(edit: Edit, operator: Operator, size: float, seed: int, leg: int | No
     return mean_swing(np.array([one[0] for one in found]), np.array([one[1:] for one in found]), edit)
 
 
-def driven(edit: Edit, operator: Operator, size: float, seed: int, leg: int) -> Iterator[Lap]:
+def driven(edit: Edit, operator: Operator, size: float, seed: int) -> Iterator[Lap]:
     """The laps of the numerical controller, once steady. Raises `WrongUse` where the robot falls."""
     robot = edit.robot
     chooser = fixed_skill(robot, edit.skill, None, 0.0, None, "numerical")
     for start in range(seed, seed + STARTS):
         scene = load_scene("flat", start)
-        brain = imagining(Brain.of(robot, scene, chooser, DT, watches=False), (operator,), leg, size)
+        brain = imagining(Brain.of(robot, scene, chooser, DT, watches=False), (operator,), edit.number, size)
         session = Session(brain, make_plant("mujoco", robot, scene, DT), Mission(()), SETTLING + SHOWN, start)
         for lap in session:
             if lap.fell:
@@ -198,6 +197,14 @@ def force_between(robot: Robot, leg: int, plain: Swing, raised: Swing) -> Float[
         ]
     )
     return force * np.array([1.0, side, 1.0])
+
+
+def force_as_torque(
+    robot: Robot, leg: int, operator: Operator, swing: Swing
+) -> Float[np.ndarray, "shares 3"]:
+    """Torques per metre that an operator's force comes to in a leg that swings so [N]."""
+    side = 1.0 if robot.nominal_feet[leg, 1] >= 0.0 else -1.0
+    return np.einsum("sja,sa->sj", swing.columns, operator.force * np.array([1.0, side, 1.0]))
 
 
 def damped(

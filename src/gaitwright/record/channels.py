@@ -25,7 +25,10 @@ SCAN = tuple(f"scan_{field.name}" for field in fields(Scan))
 MEMORY, MOST_MEMORIES = "memory", 10_000
 """The channel that says which of its working memories a robot had after its choice, of so many at most; NaN
 where that was not told."""
-SITUATION = (*ROUTE, *SCAN, MEMORY)
+OPERATOR, REACH = "operator", "reach"
+"""Which terrain operator each leg was under, as in a `MotionTarget`, and how much of an obstacle it answered
+[m]."""
+SITUATION = (*ROUTE, *SCAN, MEMORY, OPERATOR, REACH)
 """The channels that older recordings lack, and the only ones in which a number need not be finite."""
 Held = tuple[tuple[str, str | float], ...]
 """A working memory: its facts with their names, in the order of these."""
@@ -47,6 +50,8 @@ def widths(legs: int) -> dict[str, int]:
         **ROUTE,
         **dict.fromkeys(SCAN, 1),
         MEMORY: 1,
+        OPERATOR: legs,
+        REACH: legs,
     }
 
 
@@ -82,6 +87,7 @@ class Packer:
         where = MotionTarget.layout.slices(legs)
         self.feet = slice(where["phase"].start, where["stance"].stop)
         self.place, self.command = where["position_w"], where["command"]
+        self.operators = slice(where[OPERATOR].start, where[REACH].stop)
 
     def row(self, lap: Lap) -> bytes:
         """The numbers of a lap, in the order of `widths`."""
@@ -101,6 +107,7 @@ class Packer:
             FIVE(*self.numbers, call.gait.period, *lap.took),
             self.situation,
             self.memory,
+            target[self.operators],
         )
         if self.plain is None:
             self.plain = all(is_plain(piece) for piece in pieces)

@@ -260,7 +260,7 @@ def columns_in_ground(packed, seen, asked, leg):
     moment, out = moment_between(seen, asked), np.empty((3, 3))
     R = rotation(moment.orientation)
     G = ground_frame(moment, R)
-    foot = foot_now(packed, moment, leg, R)
+    foot = foot_now(posed(packed, moment.q[leg], leg), moment, R)
     for j in range(3):
         write(out[j], 0, times_t(G, foot.columns[j]))
     return out
