@@ -33,8 +33,10 @@ def test_the_rules_are_told(book, capsys):
 
 
 def test_a_person_teaches_one_sees_it_takes_it_in_orders_and_forgets(book, capsys, tmp_path, monkeypatch):
-    for name, quick in (("learning.operator_trials.SECONDS", 3.5), ("cli.operators.TRIED_ON", ("trot",))):
-        monkeypatch.setattr(f"gaitwright.{name}", quick)
+    lessons, trials = "gaitwright.learning.operator_lessons", "gaitwright.learning.operator_trials"
+    for name, quick in ((f"{lessons}.STARTS", 1), (f"{lessons}.SHOWN", 2.0), (f"{trials}.SECONDS", 3.5)):
+        monkeypatch.setattr(name, quick)
+    monkeypatch.setattr("gaitwright.cli.operators.TRIED_ON", ("trot",))
     cycle = tmp_path / "high.json"
     cycle.write_text(json.dumps(CYCLE))
     teach = ["operators", book, "--size", "0.05", "--leg", "FR", "--cycle", str(cycle), "--name", "high"]

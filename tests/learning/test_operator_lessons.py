@@ -32,8 +32,8 @@ def test_an_edit_is_told_per_metre(shown: Operator) -> None:
     assert shown.largest == pytest.approx(0.099) and shown.landing == 0.0
     assert shown.strategy == "follows the ground"
     up = shown.force[:, 2]
-    assert up[4:12].mean() > 200.0, "to raise a foot it is pushed up first, …"
-    assert up[16:22].mean() < -100.0, "… then held back"
+    assert up[1:8].mean() > 200.0, "to raise a foot it is pushed up first, …"
+    assert up[12:20].mean() < -100.0, "… then held back"
     assert "raised by 1.00 cm" in sentence(shown) and "on FL in trot at 0.060 m" in sentence(shown)
 
 
@@ -80,7 +80,7 @@ def replace_notes(notes, **others):
 @pytest.mark.parametrize(
     ("others", "told"),
     [
-        ({"leg": "XX"}, "no leg of go2 'XX'; there are: FL"),
+        ({"leg": "XX"}, "no leg of go2 'XX'; there is: FL"),
         ({"kinds": ("wall",)}, "no kind of obstacle 'wall'"),
         ({"size": 0.0}, "an obstacle of 0 m"),
         ({"size": 2.0}, "as high as the body"),

@@ -3,7 +3,7 @@
 import numpy as np
 
 from gaitwright.errors import BadFile, WrongUse
-from gaitwright.gait.operators import Operator
+from gaitwright.gait.operators import SHARES, Operator
 from gaitwright.model.robot import Robot
 from gaitwright.skillbook.book import Skillbook
 from gaitwright.skillbook.operator_notes import OperatorNotes
@@ -19,11 +19,13 @@ def notes_of(operator: Operator) -> OperatorNotes:
 
 def operator_of(notes: OperatorNotes, source: str) -> Operator:
     """The operator that a book holds. Raises `BadFile` where it is none."""
+    if {len(column) for column in (*notes.path, *notes.force)} != {SHARES}:
+        raise BadFile(f"{source}: operator {notes.name!r} has not the {SHARES} rows of a swing")
     try:
         path, force = (np.array(columns).T for columns in (notes.path, notes.force))
         own = (notes.duration, notes.landing, notes.taught)
         return Operator(notes.name, notes.kinds, notes.largest, path, force, *own)
-    except (WrongUse, ValueError) as error:
+    except WrongUse as error:
         raise BadFile(f"{source}: {error}") from None
 
 
