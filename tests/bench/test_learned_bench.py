@@ -12,6 +12,7 @@ from gaitwright.bench.claims.learned_courses import BOXES_END, COURSES, Course
 from gaitwright.bench.claims.learned_parts import CASES, PARTS, trial
 from gaitwright.bench.evidence.alternations import SWITCHES, alternated
 from gaitwright.bench.evidence.beside_teacher import driven_by, handed_over, survived
+from gaitwright.bench.evidence.played_share import played_share
 from gaitwright.bench.evidence.played_without import LeftOut, PlayedWithout
 from gaitwright.bench.trial import Outcome, Then, Trial, brain_for, profile_of, robot_named, simulate
 from gaitwright.control.learned.controller import LearnedController
@@ -97,6 +98,11 @@ def test_drivers_alternate_without_a_leap():
     assert not run.fell and len(run.at_switch) == SWITCHES
     assert run.at_switch.max() < 0.5 < run.else_where.max()
     assert len(run.after) >= 24 * SWITCHES
+
+
+# --- what is played ---------------------------------------------------------------------------------
+def test_most_of_a_run_is_played_back():
+    assert played_share("go2", "run", 0) > 0.85  # 0.65 in a limp
 
 
 # --- beside the teacher ----------------------------------------------------------------------------

@@ -100,7 +100,9 @@ def test_velocity_and_acceleration_are_those_of_the_path(reach: float, s: float,
 
     s = min(max(s, 2 * e), 1 - 2 * e)
     (before, _, _), (after, _, _), (_, v, force) = at(s - e), at(s + e), at(s)
-    assert v == pytest.approx((after - before) / (2 * e * duration), rel=0.05, abs=0.1 * reach / duration + 1e-3)
+    assert v == pytest.approx(
+        (after - before) / (2 * e * duration), rel=0.05, abs=0.1 * reach / duration + 1e-3
+    )
     assert force == pytest.approx(reach * (0.2 / duration) ** 2 * np.array([0.0, 30.0, 100.0]))
 
 

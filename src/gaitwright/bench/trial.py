@@ -1,7 +1,7 @@
 """One simulation from plain values to its figures: what a worker is given, and what it hands back."""
 
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from time import perf_counter, process_time
@@ -9,10 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from gaitwright.bench.evidence.played_without import LeftOut, leaving_out
+from gaitwright.bench.evidence.played_without import LeftOut, PlayedWithout
 from gaitwright.bench.witness import Change, Seen, Witness
+from gaitwright.control.learned.controller import LearnedController
 from gaitwright.control.learned.profile import Profile
 from gaitwright.control.numerical import Method
+from gaitwright.control.takeover import LEARNED
 from gaitwright.description.load import load_robot
 from gaitwright.gait.operators import Operator
 from gaitwright.ground.scene import Scene
@@ -204,7 +206,10 @@ def brain_for(trial: Trial, robot: Robot, scene: Scene) -> Brain:
         profiles[trial.then.skill] = (profile_of(trial.robot, trial.then.skill),)
     brain = brain.with_profiles(profiles, alarmed=trial.alarmed)
     brain = brain.with_operators((operator_of(trial.robot),)) if trial.operators else brain
-    return leaving_out(brain, trial.without) if trial.without else brain
+    learned = brain.controller(LEARNED)
+    if trial.without is None or not isinstance(learned, LearnedController):
+        return brain
+    return replace(brain, controllers={**brain.controllers, LEARNED: PlayedWithout(learned, trial.without)})
 
 
 def second_call(trial: Trial, robot: Robot) -> SkillCall:

@@ -4,7 +4,7 @@ What is regulated is what differs from the errors in the row. A row that holds t
 leaves that part of the regulation nothing to do, so the law itself has no switches.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -14,8 +14,6 @@ from gaitwright.control.learned.controller import LearnedController, command_of,
 from gaitwright.control.learned.law import ground_frame, note, play
 from gaitwright.control.learned.profile import ROW, row_of
 from gaitwright.control.moments import moment_between
-from gaitwright.control.takeover import LEARNED
-from gaitwright.locomotion import Brain
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import GRAVITY, rotation
 from gaitwright.numerics.packing import Row
@@ -70,6 +68,16 @@ def leave_out(packed, seen, asked, left_out, now, row):
             taught.feedback[i] += GRAVITY * (G[2, i] - (1.0 if i == 2 else 0.0))
 
 
+@kernel
+def tick_without(  # noqa: PLR0913 - a kernel
+    packed, inertia, maps, way, speeds, turns, tables, seen, asked, left_out, now, row, out
+):
+    """One tick as `controller.tick` makes it, of an altered row."""
+    row_at(way, speeds, turns, tables, command_of(asked), phase_of(asked), row)
+    leave_out(packed, seen, asked, left_out, now, row)
+    play(packed, inertia, maps, row, seen, asked, out)
+
+
 @dataclass(frozen=True)
 class PlayedWithout:
     """Plays profiles without some parts."""
@@ -87,21 +95,13 @@ class PlayedWithout:
     ) -> tuple[MotorCommand, Row]:
         """Joint torques [N·m] for this tick, and its `Played`."""
         assert call is not None
-        learned, packed = self.learned, self.learned.robot.packed
+        learned = self.learned
         cells = learned.cells_of(call.gait)
         if cells is None:
             return learned.command(target, sensed, memory, call, ground)
-        asked, seen, size = target.row, sensed.row, ROW.size(learned.robot.n)
+        size = ROW.size(learned.robot.n)
         row, now, out = np.empty(size), np.empty(size), np.empty(learned.blank.size)
+        body = learned.robot.packed, learned.inertia, learned.maps
         grid = cells.way, cells.speeds, cells.turns, cells.tables
-        row_at(*grid, command_of(asked), phase_of(asked), row)
-        leave_out(packed, seen, asked, self.left_out, now, row)
-        play(packed, learned.inertia, learned.maps, row, seen, asked, out)
+        tick_without(*body, *grid, sensed.row, target.row, self.left_out, now, row, out)
         return MotorCommand.of_row(out[learned.where]), out
-
-
-def leaving_out(brain: Brain, left_out: LeftOut) -> Brain:
-    """The same brain, whose learned controller does without some parts."""
-    learned = brain.controller(LEARNED)
-    assert isinstance(learned, LearnedController)
-    return replace(brain, controllers={**brain.controllers, LEARNED: PlayedWithout(learned, left_out)})
