@@ -10,6 +10,7 @@ from gaitwright.cli.console import remark
 from gaitwright.cli.driving import grades_for, operators_for, profiles_for
 from gaitwright.cli.output import numbered_folder
 from gaitwright.cli.teach import taught
+from gaitwright.cli.teach_operators import run as over_obstacles
 from gaitwright.cli.teach_profiles import learned
 from gaitwright.cli.trip_rows import show_trips
 from gaitwright.control.takeover import HYBRID, NUMERICAL
@@ -85,10 +86,12 @@ def field(robot: Robot, seed: int) -> trips.Scene:
 
 
 def learn(robot: Robot, path: Path, args: Namespace) -> Path:
-    """A skillbook with rules from a school, and with the profiles of the skills that the field asks for."""
+    """A skillbook with rules from a school, how a leg gets over obstacles, and the profiles of the skills
+    that the field asks for."""
     Skillbook.new(FOREST, robot.name, "demo", args.seed).save(path)
     with open_for_learning(path) as ledger:
         taught(robot, teacher_for(robot), ledger, Namespace(trips=SCHOOL, seed=args.seed))
+        over_obstacles(robot, ledger, args)
         learned(robot, ledger, SKILLS, args.seed)
     return path
 

@@ -14,7 +14,7 @@ from gaitwright.model.robot import Robot
 from gaitwright.pictures import Sheet
 from gaitwright.pictures.style import INK, JOINTS, LEFT, WIDTH, dress
 
-TALL, BETWEEN, TOP, GAP = 2.6, 1.35, 1.2, 0.9
+TALL, BETWEEN, TOP, GAP = 2.6, 1.6, 1.6, 0.9
 """Height of a panel, below it, above the first one, between two [in]."""
 SKILL = "trot"
 """Whose swing is drawn."""
@@ -25,7 +25,7 @@ AT = np.linspace(0.0, 1.0, SHARES)
 
 def operators_picture(robot: Robot, operators: Sequence[Operator], path: Path) -> Path:
     """Draws operators as PNG, one a row, in the order in which they are tried."""
-    sheet = Sheet(height=TOP + len(operators) * (TALL + BETWEEN))
+    sheet = Sheet(height=TOP + len(operators) * (TALL + BETWEEN) - 0.9)
     edge = LEFT / WIDTH
     title = f"{robot.name}: terrain operators, on a swing of {SKILL}"
     sheet.figure.text(edge, 1 - 0.42 / sheet.height, title, fontsize=17, fontweight="bold", color=INK)
@@ -33,8 +33,8 @@ def operators_picture(robot: Robot, operators: Sequence[Operator], path: Path) -
     for row, one in enumerate(operators):
         top = TOP + row * (TALL + BETWEEN)
         below = f"{', '.join(one.kinds)} up to {one.largest:.3f} m; it {one.strategy}; taught {one.taught}"
-        sheet.figure.text(edge, 1 - (top - 0.42) / sheet.height, one.name, fontsize=13, color=INK)
-        sheet.figure.text(edge, 1 - (top - 0.2) / sheet.height, below, fontsize=10, color=INK)
+        sheet.figure.text(edge, 1 - (top - 0.82) / sheet.height, one.name, fontsize=13, color=INK)
+        sheet.figure.text(edge, 1 - (top - 0.56) / sheet.height, below, fontsize=10, color=INK)
         draw_path(sheet.axes(LEFT, top, width, TALL), robot, one)
         draw_force(sheet.axes(LEFT + width + GAP, top, width, TALL), one)
     with whole(path) as draft:
