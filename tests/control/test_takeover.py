@@ -98,6 +98,13 @@ def test_a_command_that_leaves_the_cells_is_handed_back_at_once():
     assert_spells(found, [("numerical", 0.1), ("learned", 0.3), ("numerical", 0.2), ("learned", 0.4)])
 
 
+def test_an_obstacle_that_no_operator_is_for_is_not_the_taught_case():
+    target = asked_for(trot().velocity[0])
+    for number, is_known in ((0.0, True), (1.0, True), (-1.0, False)):
+        ahead = replace(target, operator=np.array([0.0, number, 0.0, 0.0]))
+        assert learned().covers(trot().gait, ahead) == is_known
+
+
 def test_a_case_that_comes_and_goes_is_not_known():
     flickering = drives(1.0, speed=lambda time: 0.9 if time % 0.08 < 0.01 else trot().velocity[0])
     assert_spells(flickering, [("numerical", 1.0)])

@@ -7,8 +7,10 @@ does between where a foot left it and where it wants to land.
 import math
 
 from gaitwright.gait.clearance import CLEAR, LOW, MOST_LIFT, highest_near
+from gaitwright.gait.swing import on_cycle
 from gaitwright.ground.elevation import height_at, is_known
 from gaitwright.numerics.compiled import kernel
+from gaitwright.numerics.geometry import scale
 
 BLOCK, STEP_UP, STEP_DOWN, HOLE, SLOPE, NOTHING = 0, 1, 2, 3, 4, -1
 """Places in `operators.KINDS`."""
@@ -114,23 +116,17 @@ def reach_needed(ground, origin, x, y, z, radius, lift, cycle, table, height):
 
 
 @kernel
-def on_operator(table, s):
-    """Row of an operator's table at share `s` of the swing, straight in between."""
+def force_at(table, s):
+    """Force of an operator's table at share `s` of the swing, straight in between [N/m]."""
     x = min(max(s, 0.0), 1.0) * (table.shape[0] - 1)
     i = min(int(x), table.shape[0] - 2)
     t = x - i
     k = 1.0 - t
     return (
-        k * table[i, 0] + t * table[i + 1, 0],
-        k * table[i, 1] + t * table[i + 1, 1],
-        k * table[i, 2] + t * table[i + 1, 2],
-        k * table[i, 3] + t * table[i + 1, 3],
-        k * table[i, 4] + t * table[i + 1, 4],
-        k * table[i, 5] + t * table[i + 1, 5],
         k * table[i, 6] + t * table[i + 1, 6],
         k * table[i, 7] + t * table[i + 1, 7],
         k * table[i, 8] + t * table[i + 1, 8],
-    )  # fmt: skip
+    )
 
 
 @kernel
@@ -142,7 +138,7 @@ def enhance(table, reach, s, duration, taught_in, way_x, way_y, out_p, out_v, ou
     `reach`: metres of obstacle; `duration`, `taught_in`: of this swing and of that one [s], forces go with
     the square of the pace.
     """
-    b, db, ddb, u, du, ddu, f_x, f_y, f_z = on_operator(table, s)
+    b, db, ddb, u, du, ddu = on_cycle(table, s)  # its first six columns are those of a leg cycle
     for i in range(3):
         way = way_x if i == 0 else way_y
         x, dx, ddx = (u, du, ddu) if i == 2 else (way * b, way * db, way * ddb)
@@ -150,4 +146,4 @@ def enhance(table, reach, s, duration, taught_in, way_x, way_y, out_p, out_v, ou
         out_v[i] += reach * dx / duration
         out_a[i] += reach * ddx / (duration * duration)
     k = reach * (taught_in / duration) ** 2
-    return k * f_x, k * f_y, k * f_z
+    return scale(k, force_at(table, s))
