@@ -18,7 +18,7 @@ from gaitwright.control.takeover import LEARNED
 from gaitwright.description.load import load_robot
 from gaitwright.gait.operators import Operator
 from gaitwright.ground.scene import Scene
-from gaitwright.learning.operator_lessons import SHOWN_SIZE, Edit, learned_from
+from gaitwright.learning.operator_lessons import shown
 from gaitwright.learning.profile_lessons import taught
 from gaitwright.locomotion import Brain
 from gaitwright.model.perturb import perturbed
@@ -205,7 +205,7 @@ def brain_for(trial: Trial, robot: Robot, scene: Scene) -> Brain:
     if trial.then and trial.then.skill != trial.skill:
         profiles[trial.then.skill] = (profile_of(trial.robot, trial.then.skill),)
     brain = brain.with_profiles(profiles, alarmed=trial.alarmed)
-    brain = brain.with_operators((operator_of(trial.robot),)) if trial.operators else brain
+    brain = brain.with_operators(operators_of(trial.robot)) if trial.operators else brain
     learned = brain.controller(LEARNED)
     if trial.without is None or not isinstance(learned, LearnedController):
         return brain
@@ -228,10 +228,9 @@ def profile_of(asked: str, skill: str, speed: float | None = None, turn: float |
 
 
 @lru_cache
-def operator_of(asked: str) -> Operator:
-    """The terrain operator that the numerical controller shows unasked, taught once in a process."""
-    robot = robot_named(asked)
-    return learned_from(Edit(robot, SHOWN_SIZE * robot.step_limit))
+def operators_of(asked: str) -> tuple[Operator, ...]:
+    """The terrain operators that the numerical controller shows unasked, taught once in a process."""
+    return shown(robot_named(asked))
 
 
 @dataclass(frozen=True)

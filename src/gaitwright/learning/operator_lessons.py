@@ -29,12 +29,15 @@ from gaitwright.skills.chooser import fixed_skill
 
 SETTLING, SHOWN, STARTS = 2.0, 4.0, 2
 """Time until a gait is steady, time that is noted [s], and how many starts."""
-SHOWN_ON, SHOWN_SIZE = "trot", 0.6
-"""What the numerical controller shows unasked: in which skill, and which share of the highest step."""
+SHOWN_ON, SHOWN_SIZE, SHOWN_HOLE = "trot", 0.6, 0.5
+"""What the numerical controller shows unasked: in which skill, an obstacle of which share of the highest
+step, and a hole of which share of the body's height."""
 ROOM = 1.65
 """An operator serves obstacles of up to so many times the size that it was taught for."""
 RAISED = ("block", "step up", "step down")
-"""Obstacles that are answered by a raised foot."""
+"""Obstacles that a foot is raised over by their own height."""
+OVER_HOLES = 0.3
+"""Over a hole it is raised by this share of the width: a foot that goes low hits the far edge."""
 FEWEST = 8
 """A share of the swing that was seen so often is known."""
 TRUSTED = 0.02
@@ -99,15 +102,21 @@ def learned_from(edit: Edit, name: str = "", seed: int = 0) -> Operator:
     return replace(drawn, force=force.round(3))
 
 
+def shown(robot: Robot, seed: int = 0) -> tuple[Operator, ...]:
+    """What the numerical controller shows unasked: how a foot gets over obstacles, and over holes."""
+    obstacle = Edit(robot, SHOWN_SIZE * robot.step_limit)
+    hole = Edit(robot, SHOWN_HOLE * robot.height, kinds=("hole",))
+    return learned_from(obstacle, "over an obstacle", seed), learned_from(hole, "over a hole", seed)
+
+
 def path_of(edit: Edit, gait: Gait) -> Float[np.ndarray, "shares 2"]:
     """The edited path less the usual one, per metre: shift in shares of the way, height."""
     at = np.linspace(0.0, 1.0, SHARES)
     hind = is_hind(edit.number, edit.robot.n)
     usual = sampled(cycle_of(gait.name), at, hind)[:, [0, 3]]
     if edit.cycle is None:
-        shift, height = np.zeros(SHARES), usual[:, 1] / usual[:, 1].max()
-        if not set(edit.kinds) & set(RAISED):  # she raises no foot for a hole or a slope
-            height = np.zeros(SHARES)
+        much = 1.0 if set(edit.kinds) & set(RAISED) else OVER_HOLES if "hole" in edit.kinds else 0.0
+        shift, height = np.zeros(SHARES), much * usual[:, 1] / usual[:, 1].max()
     else:
         off = sampled(edit.cycle, at, hind)[:, [0, 3]] - usual
         shift, height = off[:, 0] / edit.size, off[:, 1] * edit.robot.height / edit.size

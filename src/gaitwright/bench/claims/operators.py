@@ -9,7 +9,7 @@ from gaitwright.bench.claims.learned_courses import COURSES, HANDED_OVER, Course
 from gaitwright.bench.context import Context
 from gaitwright.bench.evidence.beside_teacher import driven_by, handed_over
 from gaitwright.bench.measurement import Figure, at_least, at_most, count
-from gaitwright.bench.trial import operator_of, profile_of, robot_named
+from gaitwright.bench.trial import operators_of, profile_of, robot_named
 from gaitwright.gait.contacts import swing_time
 from gaitwright.learning.operator_lessons import Edit, force_as_torque, swings
 from gaitwright.learning.operator_trials import Swung, swung
@@ -60,9 +60,9 @@ def heights(context: Context, skill: str) -> Iterator[Figure]:
 
 
 def raised(asked: tuple[str, int, float, int]) -> tuple[float, float]:
-    """How high a leg comes, of what was asked for, with the operator and without its force."""
+    """How high a leg comes, of what was asked for, with operators and without its force."""
     skill, leg, size, seed = asked
-    one = operator_of("go2")
+    one = operators_of("go2")[0]
     trial = Swung(robot_named("go2"), skill, leg, size, (one,), (profile_of("go2", skill),), seed)
     found, plain = (
         swung(replace(trial, operators=(other,))) for other in (one, replace(one, force=0.0 * one.force))
@@ -72,7 +72,7 @@ def raised(asked: tuple[str, int, float, int]) -> tuple[float, float]:
 
 def predicted(skill: str) -> list[float]:
     """How far the operator's torques are from those that a teacher takes, leg by leg and size by size [%]."""
-    robot, one, off = robot_named("go2"), operator_of("go2"), []
+    robot, one, off = robot_named("go2"), operators_of("go2")[0], []
     gait = fixed_skill(robot, skill, None, 0.0, None, "").skill_call.gait
     pace = (one.duration / swing_time(gait.period, gait.duty)) ** 2
     for leg in range(robot.n):
@@ -86,7 +86,7 @@ def predicted(skill: str) -> list[float]:
 
 
 def across(context: Context, course: Course) -> Figure:
-    """A course by the learned controller, with the operator and without."""
+    """A course by the learned controller, with operators and without."""
     trials = [
         handed_over(course.skill, seed, course.seconds, course.scene, HANDED_OVER)
         for seed in context.seeds(STARTS)
@@ -94,10 +94,10 @@ def across(context: Context, course: Course) -> Figure:
     what = f"go2 {course.skill} over {course.scene}"
     found = {
         name: context.outcomes(f"{what}, {name}", [replace(trial, operators=is_on) for trial in trials])
-        for name, is_on in (("with the operator", True), ("without", False))
+        for name, is_on in (("with operators", True), ("without", False))
     }
     teacher = context.outcomes(f"{what}, numerical", [driven_by("numerical", trial) for trial in trials])
     good = {name: sum(map(course.is_across, outcomes)) for name, outcomes in found.items()}
     note = f"without it {good['without']}, numerical {sum(map(course.is_across, teacher))}"
-    what = f"{what}: across with the operator"
-    return count(what, good["with the operator"], len(trials), course.least, note, {})
+    what = f"{what}: across with operators"
+    return count(what, good["with operators"], len(trials), course.least, note, {})
