@@ -11,6 +11,7 @@ from time import perf_counter_ns
 from typing import NamedTuple
 
 from gaitwright.control.alarm import QUIET, Alarm, Heard
+from gaitwright.control.balance import STEADY, Balance, Balanced
 from gaitwright.control.handover import Handover
 from gaitwright.control.learned.controller import LearnedController
 from gaitwright.control.takeover import HYBRID, LEARNED, UNDECIDED, Drive, Takeover
@@ -39,6 +40,7 @@ class Memories(NamedTuple):
     drive: Drive = UNDECIDED
     """Who drives, in a hybrid."""
     alarm: Heard = QUIET
+    balance: Balanced = STEADY
 
 
 Driven = tuple[SkillCall, MotionTarget, Memory, Drive, Controller, MotorCommand, Memory, int]
@@ -57,6 +59,8 @@ class Driving:
     """Who decides who drives in a hybrid; `None`: the numerical controller does."""
     alarm: Alarm | None = None
     """Who asks a robot that stumbles to go no farther; `None`: nobody."""
+    balance: Balance | None = None
+    """Who answers what is off by rules; `None`: nobody."""
 
     def controller(self, driver: str) -> Controller:
         """Who computes the torques. Raises `WrongUse` for a driver that there is not."""
@@ -74,15 +78,18 @@ class Driving:
 
     def tick(self, before: Memories, call: SkillCall, sensed: Sensed, ground: GroundMap) -> Driven:
         """One tick. `before`: what each stage handed back in the one before."""
+        wanted = call if self.balance is None else self.balance.answered(call, before.balance)
         if LEARNED in (call.driver, before.drive.driver) and not before.alarm.rings:
-            driven = self.at_once(before, call, sensed, ground)
+            driven = self.at_once(before, call, wanted, sensed, ground)
             if driven is not None:
                 return driven
-        return self.one_by_one(before, call, sensed, ground)
+        return self.one_by_one(before, call, wanted, sensed, ground)
 
-    def one_by_one(self, before: Memories, call: SkillCall, sensed: Sensed, ground: GroundMap) -> Driven:
-        """Gait, then who drives, then control."""
-        wanted = call if self.alarm is None else self.alarm.calmed(call, before.alarm)
+    def one_by_one(
+        self, before: Memories, call: SkillCall, wanted: SkillCall, sensed: Sensed, ground: GroundMap
+    ) -> Driven:
+        """Gait, then who drives, then control. `wanted`: the call as balance has the gait asked for it."""
+        wanted = wanted if self.alarm is None else self.alarm.calmed(wanted, before.alarm)
         target, gait = self.coordinator.move(before.gait, wanted, sensed, ground)
         handed = perf_counter_ns()
         used = with_gait_in_use(call, gait)
@@ -103,7 +110,9 @@ class Driving:
             return self.takeover.kept(call, before.drive)
         return self.takeover.decide(call, gait, target, time, before.drive, before.control)
 
-    def at_once(self, before: Memories, call: SkillCall, sensed: Sensed, ground: GroundMap) -> Driven | None:
+    def at_once(
+        self, before: Memories, call: SkillCall, wanted: SkillCall, sensed: Sensed, ground: GroundMap
+    ) -> Driven | None:
         """The same in one compiled call; `None` where somebody else drives than the learned controller.
 
         In a hybrid it is taken to go on where it drove the tick before, and then decided.
@@ -112,7 +121,7 @@ class Driving:
         if one is None or call.driver not in (LEARNED, HYBRID):
             return None
         handed = perf_counter_ns()
-        tick = one.tick(before.gait, call, sensed, ground)
+        tick = one.tick(before.gait, wanted, sensed, ground)
         if tick is None:
             return None
         target, gait, command, played, is_known = tick

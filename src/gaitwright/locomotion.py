@@ -12,13 +12,16 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from gaitwright.control.alarm import QUIET, Alarm
+from gaitwright.control.balance import STEADY, Balance
+from gaitwright.control.balance_rules import BalanceRules
+from gaitwright.control.comparator import Comparator
 from gaitwright.control.handover import begun, softened
 from gaitwright.control.kinematic import KinematicController
 from gaitwright.control.learned.controller import LearnedController
 from gaitwright.control.learned.profile import Profile
 from gaitwright.control.numerical import Method, NumericalController
 from gaitwright.control.takeover import LEARNED, Takeover
-from gaitwright.driving import Driving, Memories
+from gaitwright.driving import Driving, Memories, with_gait_in_use
 from gaitwright.gait.coordinator import Coordinator
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle
 from gaitwright.gait.operators import Operator
@@ -68,6 +71,8 @@ class Brain:
     """Who decides who drives in a hybrid; `None`: the numerical controller does."""
     alarm: Alarm | None = None
     """Who notices that the learned controller stumbles; `None`: nobody."""
+    balance: Balance | None = None
+    """Who answers what is off its profiles by rules; `None`: nobody."""
 
     @classmethod
     def of(  # noqa: PLR0913 - the door to all settings; most calls name two of these
@@ -140,6 +145,13 @@ class Brain:
         alarm = Alarm(self.robot) if profiles and alarmed else None
         return replace(self, controllers=controllers, takeover=takeover, alarm=alarm)
 
+    def with_balance(self, rules: BalanceRules | None) -> "Brain":
+        """The same brain with rules of balance for when its profiles are played; `None`: without."""
+        learned = self.controllers.get(LEARNED)
+        if rules is None or not isinstance(learned, LearnedController):
+            return replace(self, balance=None)
+        return replace(self, balance=Balance(Comparator(self.robot, learned), rules))
+
     def with_operators(self, operators: Sequence[Operator]) -> "Brain":
         """The same brain with terrain operators, tried in this order, whoever computes the torques."""
         if not operators:
@@ -150,7 +162,7 @@ class Brain:
     @cached_property
     def driving(self) -> Driving:
         """Gait and control of this brain."""
-        return Driving(self.coordinator, self.controllers, self.takeover, self.alarm)
+        return Driving(self.coordinator, self.controllers, self.takeover, self.alarm, self.balance)
 
     def begin(
         self, mission: Mission, measured: Measured, phase: float = 0.0, before: "Mind | None" = None
@@ -239,10 +251,12 @@ def think(brain: Brain, mind: Mind, measured: Measured) -> tuple[Lap, Mind]:
     if watch is not None and watched is not None:
         watched = watch.heard(watched, target, command, sensed)
         lap = lap._replace(faults=watched.faults) if watched.faults else lap
-    heard = QUIET
+    heard, steady = QUIET, STEADY
     if alarm is not None and call.driver == LEARNED:
         heard = alarm.listen(target, sensed, before.alarm)
-    after = (perceived, travelled, gait, control, controller, watched, command, change, drive, heard)
+    if brain.balance is not None and call.driver == LEARNED:
+        steady = brain.balance.watch(with_gait_in_use(call, gait).gait, target, sensed, before.balance)
+    after = (perceived, travelled, gait, control, controller, watched, command, change, drive, heard, steady)
     memories = Memories(*after)
     return lap, Mind(mind.mission, ground, mind.route, mind.call, memories, mind.looked_at, mind.chosen_at)
 

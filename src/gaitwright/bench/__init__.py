@@ -14,7 +14,16 @@ GROUPS = {
     "mechanics": ("dynamics", "sharing", "streaming", "armstrong"),
     "rules": ("rules", "school", "lessons", "teachers", "kills"),
     "learned": ("learned", "learned_parts", "learned_pushes", "learned_courses", "learned_switches"),
-    "takeover": ("playing", "profiles", "operators", "sensing", "hybrid", "growth", "newcomers"),
+    "takeover": (
+        "playing",
+        "profiles",
+        "operators",
+        "sensing",
+        "hybrid",
+        "growth",
+        "balance",
+        "newcomers",
+    ),
     "outside": ("strangers", "fuzz", "faults"),
 }
 """Groups of claims, each claim the name of a module here, in the order in which they are measured."""

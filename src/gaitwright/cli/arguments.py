@@ -27,6 +27,7 @@ from gaitwright.cli.arg_types import (
     sensing,
     sensors,
 )
+from gaitwright.cli.balance_arguments import add_balance
 from gaitwright.cli.operator_arguments import add_operators
 from gaitwright.plant.names import FAULTS, INTEGRATORS, JOINTS, PLANTS, SENSORS
 
@@ -116,6 +117,8 @@ def add_run(parser: argparse.ArgumentParser, seconds: float) -> None:
         else f"how long ({seconds:g})"
     )
     parser.add_argument("--seconds", type=duration, default=seconds, metavar="T", help=longest)
+    rules = "driver learned or hybrid: answer what is off by these rules, see `gaitwright balance` (by none)"
+    parser.add_argument("--balance", metavar="FILE.json", help=rules)
     random = "draws the random parts of the scene and small differences of the start (0)"
     parser.add_argument("--seed", type=seed, default=0, metavar="N", help=random)
     parser.add_argument("--out", metavar="DIR", help="a new folder for picture, recording and report")
@@ -277,6 +280,7 @@ ADD = {
     "explain": add_explain,
     "books": add_books,
     "operators": add_operators,
+    "balance": add_balance,
     "bench": add_bench,
     "reproduce": add_reproduce,
     "doctor": add_nothing,

@@ -1,7 +1,11 @@
 """The torque profiles of a book for the drivers that play them, and a sentence for what is not played."""
 
+from argparse import Namespace
+
 from gaitwright.cli.book_files import is_skillbook, skillbook_of
 from gaitwright.cli.console import remark, working
+from gaitwright.control.balance_file import load_balance
+from gaitwright.control.balance_rules import BalanceRules
 from gaitwright.control.learned.profile import Profile
 from gaitwright.errors import WrongUse, short
 from gaitwright.gait.operators import Operator
@@ -68,6 +72,15 @@ def looked_up(robot: Robot, path: str, *skills: str) -> Playable:
         return Playable({}, {})
     with working("looking whether the profiles are up to date", worth_a_line=None):
         return playable(book, robot, short(path), skills or None)
+
+
+def balance_for(args: Namespace) -> BalanceRules | None:
+    """The rules of balance asked for. Raises `BadFile`, and `WrongUse` where nobody plays profiles."""
+    if args.balance is None:
+        return None
+    if args.skillbook is None:
+        raise WrongUse("--balance answers while profiles are played: add --skillbook FILE and its driver")
+    return load_balance(args.balance)
 
 
 def again(robot: Robot, path: str) -> str:

@@ -6,7 +6,7 @@ from dataclasses import replace
 from gaitwright.cli import trips
 from gaitwright.cli.book_files import rulebook_of
 from gaitwright.cli.console import remark
-from gaitwright.cli.driving import grades_for, operators_for, profiles_for, profiles_to_play
+from gaitwright.cli.driving import balance_for, grades_for, operators_for, profiles_for, profiles_to_play
 from gaitwright.control.takeover import HYBRID, LEARNED
 from gaitwright.errors import WrongUse
 from gaitwright.learning.growth import Returns
@@ -30,6 +30,7 @@ def run(args: Namespace) -> int:
         raise WrongUse(
             f"drivers {' and '.join(BY_BOOK)} and --skillbook FILE go together: its rules choose the skills"
         )
+    balance_for(args)  # a file that cannot be read is told before anything is made
     robot = trips.find_robot(args.robot, args.package)
     scene = trips.find_scene(args.scene, args.seed, robot, args.start)
     points = tuple(args.waypoints or [tuple(args.goal)])
@@ -65,6 +66,7 @@ def with_profiles(setting: trips.Setting, args: Namespace) -> trips.Setting:
     brain = brain.with_operators(operators_for(setting.robot, args.skillbook))
     if profiles:
         brain = brain.with_profiles(profiles, grades_for(setting.robot, args.skillbook))
+        brain = brain.with_balance(balance_for(args))
     return replace(setting, brain=brain)
 
 

@@ -138,6 +138,19 @@ COMMANDS = {
             "gaitwright operators go2.skills --recording run.npz     # which legs were under which",
         ),
     ),
+    "balance": Command(
+        "rules that answer what is off while torque profiles are played",
+        "Height, roll, pitch, velocity and turn are compared with the profile's ideal traces, each coded "
+        "-1, 0 or +1. Shows the rules that answer such patterns, in the order in which they are asked, with "
+        "what they did in pushed runs. --learn makes them: each run is tried with every action from the "
+        "moment on at which something is off, and what saves more than it loses becomes a rule; with 160 "
+        "runs that takes about ten minutes on two cores. --forget takes one out.",
+        (
+            "gaitwright balance mine.json --learn go2.skills",
+            "gaitwright balance mine.json --json -",
+            "gaitwright skill --driver learned --skillbook go2.skills --balance mine.json --push 1.5 90",
+        ),
+    ),
     "bench": Command(
         "every claim, measured",
         "Measures what this project claims about itself, on this machine. Without names: everything.",

@@ -22,6 +22,7 @@ from gaitwright.bench.fuzz.mutations import (
     damaged_value,
     damaged_xml,
 )
+from gaitwright.control.balance_file import load_balance
 from gaitwright.description.derive import derive
 from gaitwright.description.load import load_robot
 from gaitwright.description.mujoco_model import compiled
@@ -224,6 +225,7 @@ COMMANDS: tuple[tuple[str, ...], ...] = (
     ("books", "merge", "sound.skills", "sound.skills", "--out", "both.skills"),
     ("books", "confirm", "sound.skills", "nothing"),
     ("books", "forget", "sound.skills", "nothing"),
+    ("balance", "sound.json", "--forget", "left+:stop", "--out", "rest.json"),
     ("bench", "walks", "--nothing"),
     ("reproduce", "nothing", "--out", "there"),
     ("teach", "--robot", "nothing", "--out", "new.skills", "--trips", "1"),
@@ -258,5 +260,6 @@ KINDS = {
     "book text": Kind(".txt", originals.texts, damaged_text, take_text),
     "rulebook": Kind(".json", originals.rulebooks, damaged_json, take_rulebook),
     "recording": Kind(".npz", originals.recordings, damaged_recording, take_recording),
+    "balance": Kind(".json", originals.balances, damaged_json, load_balance),
     "command": Kind(".line", command_lines, damaged_line, take_command),
 }

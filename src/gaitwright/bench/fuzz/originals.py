@@ -6,6 +6,9 @@ from functools import cache
 from pathlib import Path
 
 from gaitwright.bench.evidence.learner import unkilled
+from gaitwright.control.balance_file import as_text
+from gaitwright.control.balance_rules import BalanceRule, BalanceRules
+from gaitwright.control.comparator import QUANTITIES
 from gaitwright.description.load import load_robot
 from gaitwright.gait.leg_cycles.files import BUILT_IN
 from gaitwright.ground.scene import load_scene
@@ -67,6 +70,16 @@ def rulebooks() -> tuple[bytes, ...]:
 def skillbooks() -> tuple[bytes, ...]:
     with tempfile.TemporaryDirectory() as folder:
         return (book().save(Path(folder) / "sound.skills").read_bytes(),)
+
+
+def balances() -> tuple[bytes, ...]:
+    """Rules of balance, in two skills and in all."""
+    bands = dict.fromkeys(QUANTITIES, 0.2)
+    rules = (
+        BalanceRule((0, 0, 0, 0, 1, 0), "stop"),
+        BalanceRule((0, 1, 0, 0, 0, -1), "slower", ("walk", "run")),
+    )
+    return (as_text(BalanceRules(bands, rules)).encode(),)
 
 
 @cache
