@@ -37,7 +37,7 @@ def test_a_person_teaches_one_sees_it_takes_it_in_orders_and_forgets(book, capsy
     lessons, trials = "gaitwright.learning.operator_lessons", "gaitwright.learning.operator_trials"
     for name, quick in ((f"{lessons}.STARTS", 1), (f"{lessons}.SHOWN", 2.0), (f"{trials}.SECONDS", 3.5)):
         monkeypatch.setattr(name, quick)
-    monkeypatch.setattr("gaitwright.cli.operators.TRIED_ON", ("trot",))
+    monkeypatch.setattr("gaitwright.cli.operators.TRIED_ON", ())
     cycle = tmp_path / "high.json"
     cycle.write_text(json.dumps(CYCLE))
     teach = ["operators", book, "--size", "0.05", "--leg", "FR", "--cycle", str(cycle), "--name", "high"]

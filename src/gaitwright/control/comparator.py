@@ -35,13 +35,13 @@ Pattern = tuple[int, ...]
 
 
 @kernel
-def deviations(packed, way, speeds, turns, tables, seen, asked, out):
+def deviations(packed, way, speeds, turns, tables, seen, asked, taught, noted, out):
     """Writes how far each of `QUANTITIES` is off the taught row of this phase [m, rad, rad, m/s, m/s, rad/s].
 
     `packed`: the robot; `way`, `speeds`, `turns`, `tables`: its profiles of the gait, as in `Cells`; `seen`,
-    `asked`: the rows of a `Sensed` and a `MotionTarget`. Ground frame, as in a profile.
+    `asked`: the rows of a `Sensed` and a `MotionTarget`; `taught`, `noted`: room for two rows of a profile.
+    Ground frame, as in a profile.
     """
-    taught, noted = np.empty(tables.shape[3]), np.empty(tables.shape[3])
     row_at(way, speeds, turns, tables, command_of(asked), phase_of(asked), taught)
     ideal, now = row_of(taught), row_of(noted)
     nothing = np.zeros(now.free.shape)  # torques and forces are not compared
@@ -65,9 +65,10 @@ class Comparator:
         cells = self.learned.cells_of(gait)
         if cells is None:
             return None
-        out = np.empty(len(QUANTITIES))
+        out, width = np.empty(len(QUANTITIES)), cells.tables.shape[3]
+        room = np.empty(width), np.empty(width)
         grid = cells.way, cells.speeds, cells.turns, cells.tables
-        deviations(self.robot.packed, *grid, sensed.row, target.row, out)
+        deviations(self.robot.packed, *grid, sensed.row, target.row, *room, out)
         return out / self.units
 
     @cached_property
