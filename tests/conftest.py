@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import Phase, settings
 
-EXAMPLES = 40
+EXAMPLES = 25
 """Of each property in a run; other seeds try others. The whole must stay under a quarter of an hour."""
 # A first call compiles: no deadline can hold, and to trace one, as the phase `explain` does, takes an hour.
 PHASES = tuple(phase for phase in Phase if phase is not Phase.explain)

@@ -35,8 +35,10 @@ def test_the_rules_are_told(book, capsys):
 
 def test_a_person_teaches_one_sees_it_takes_it_in_orders_and_forgets(book, capsys, tmp_path, monkeypatch):
     lessons, trials = "gaitwright.learning.operator_lessons", "gaitwright.learning.operator_trials"
-    for name, quick in ((f"{lessons}.STARTS", 1), (f"{lessons}.SHOWN", 2.0), (f"{trials}.SECONDS", 3.5)):
-        monkeypatch.setattr(name, quick)
+    quick = {f"{lessons}.STARTS": 1, f"{lessons}.SHOWN": 2.0, f"{trials}.SECONDS": 2.2}
+    quick |= {f"{trials}.HANDED_OVER": 0.3, f"{trials}.LOOKED_AT": 0.6}
+    for name, value in quick.items():
+        monkeypatch.setattr(name, value)
     monkeypatch.setattr("gaitwright.cli.operators.TRIED_ON", ())
     cycle = tmp_path / "high.json"
     cycle.write_text(json.dumps(CYCLE))
