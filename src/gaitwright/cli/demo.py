@@ -5,9 +5,9 @@ from argparse import Namespace
 from dataclasses import replace
 from pathlib import Path
 
-from gaitwright.cli import trips
+from gaitwright.cli import driving, trips
 from gaitwright.cli.console import remark
-from gaitwright.cli.driving import grades_for, operators_for, profiles_for
+from gaitwright.cli.driving import profiles_for
 from gaitwright.cli.output import numbered_folder
 from gaitwright.cli.teach import taught
 from gaitwright.cli.teach_operators import run as over_obstacles
@@ -100,6 +100,5 @@ def by_book(robot: Robot, path: Path, args: Namespace) -> trips.Setting:
     """The robot in another field, with what it has learned."""
     chooser = RuleChooser(robot, Skillbook.load(path).rulebook)
     setting = trips.set_up(robot, field(robot, args.seed + 1), chooser, "qp")
-    brain = setting.brain.with_operators(operators_for(robot, str(path)))
-    brain = brain.with_profiles(profiles_for(robot, str(path)), grades_for(robot, str(path)))
-    return replace(setting, brain=brain)
+    profiles = profiles_for(robot, str(path))
+    return replace(setting, brain=driving.by_book(setting.brain, str(path), profiles))

@@ -1,6 +1,7 @@
 """The torque profiles of a book for the drivers that play them, and a sentence for what is not played."""
 
 from argparse import Namespace
+from collections.abc import Mapping, Sequence
 
 from gaitwright.cli.book_files import is_skillbook, skillbook_of
 from gaitwright.cli.console import remark, working
@@ -8,10 +9,9 @@ from gaitwright.control.balance_file import load_balance
 from gaitwright.control.balance_rules import BalanceRules
 from gaitwright.control.learned.profile import Profile
 from gaitwright.errors import WrongUse, short
-from gaitwright.gait.operators import Operator
-from gaitwright.knowledge.trust import Grade, grades_in
-from gaitwright.learning.operator_books import operators_in
+from gaitwright.learning.equipped import equipped
 from gaitwright.learning.profile_books import Playable, playable
+from gaitwright.locomotion import Brain
 from gaitwright.model.robot import Robot
 from gaitwright.skillbook.book import Skillbook
 
@@ -23,14 +23,6 @@ def profiles_for(robot: Robot, path: str) -> dict[str, list[Profile]]:
     for sentence in found.outdated.values():
         remark(f"{sentence}, and goes on to; {again(robot, path)}")
     return found.profiles
-
-
-def grades_for(robot: Robot, path: str) -> dict[str, Grade]:
-    """How far the learned controller is trusted with each skill, by the history in a book of this robot."""
-    if not is_skillbook(path):
-        return {}
-    book = Skillbook.load(path)
-    return grades_in(book.trust) if book.robot == robot.name else {}
 
 
 def profiles_to_play(robot: Robot, path: str) -> dict[str, list[Profile]]:
@@ -54,9 +46,10 @@ def profiles_of_skill(robot: Robot, path: str, skill: str) -> dict[str, list[Pro
     return found.profiles
 
 
-def operators_for(robot: Robot, path: str) -> tuple[Operator, ...]:
-    """The terrain operators of a book; none in a file with rules alone, or of another robot."""
-    return operators_in(Skillbook.load(path), robot, short(path)) if is_skillbook(path) else ()
+def by_book(brain: Brain, path: str, profiles: Mapping[str, Sequence[Profile]]) -> Brain:
+    """The same brain with the terrain operators of a book and with profiles of it, as far as it is trusted
+    with them; a file with rules alone has neither."""
+    return equipped(brain, Skillbook.load(path), profiles, short(path)) if is_skillbook(path) else brain
 
 
 def looked_up(robot: Robot, path: str, *skills: str) -> Playable:

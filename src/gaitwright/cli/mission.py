@@ -6,7 +6,8 @@ from dataclasses import replace
 from gaitwright.cli import trips
 from gaitwright.cli.book_files import rulebook_of
 from gaitwright.cli.console import remark
-from gaitwright.cli.driving import balance_for, grades_for, operators_for, profiles_for, profiles_to_play
+from gaitwright.cli.driving import balance_for, by_book, profiles_for, profiles_to_play
+from gaitwright.control.balance_rules import BalanceRules
 from gaitwright.control.takeover import HYBRID, LEARNED
 from gaitwright.errors import WrongUse
 from gaitwright.learning.growth import Returns
@@ -30,7 +31,7 @@ def run(args: Namespace) -> int:
         raise WrongUse(
             f"drivers {' and '.join(BY_BOOK)} and --skillbook FILE go together: its rules choose the skills"
         )
-    balance_for(args)  # a file that cannot be read is told before anything is made
+    balance = balance_for(args)  # a file that cannot be read is told before anything is made
     robot = trips.find_robot(args.robot, args.package)
     scene = trips.find_scene(args.scene, args.seed, robot, args.start)
     points = tuple(args.waypoints or [tuple(args.goal)])
@@ -42,7 +43,7 @@ def run(args: Namespace) -> int:
     mission = Mission(points, args.speed, args.driver)
     if not args.learn:
         plain = trips.set_up(robot, scene, chooser_of(robot, args), args.distribution, args.sensing)
-        setting = with_profiles(plain, args)
+        setting = with_profiles(plain, args, balance)
         return trips.run(setting, mission, args)
     if args.skillbook is None:
         raise WrongUse(
@@ -51,23 +52,20 @@ def run(args: Namespace) -> int:
     with open_for_learning(args.skillbook) as ledger:  # from the beginning: nobody else teaches it meanwhile
         chooser = RuleChooser(robot, ledger.book.rulebook)
         plain = trips.set_up(robot, scene, chooser, args.distribution, args.sensing)
-        setting = with_profiles(plain, args)
+        setting = with_profiles(plain, args, balance)
         name = f"{scene.name} (seed {args.seed})"
         return trips.run(setting, mission, args, after=lambda trip, back: learn(ledger, trip, back, name))
 
 
-def with_profiles(setting: trips.Setting, args: Namespace) -> trips.Setting:
-    """The same with the terrain operators of a book, and a learned controller that plays its profiles. Raises
-    `WrongUse` for driver learned where it has none."""
+def with_profiles(setting: trips.Setting, args: Namespace, rules: BalanceRules | None) -> trips.Setting:
+    """The same with the terrain operators of a book, and a learned controller that plays its profiles, its
+    balance by `rules`. Raises `WrongUse` for driver learned where it has none."""
     if not args.skillbook:
         return setting
     find = profiles_to_play if args.driver == LEARNED else profiles_for
-    profiles, brain = find(setting.robot, args.skillbook), setting.brain
-    brain = brain.with_operators(operators_for(setting.robot, args.skillbook))
-    if profiles:
-        brain = brain.with_profiles(profiles, grades_for(setting.robot, args.skillbook))
-        brain = brain.with_balance(balance_for(args))
-    return replace(setting, brain=brain)
+    profiles = find(setting.robot, args.skillbook)
+    brain = by_book(setting.brain, args.skillbook, profiles)
+    return replace(setting, brain=brain.with_balance(rules))
 
 
 def learn(ledger: Ledger, recording: Recording, handed_back: Returns, name: str) -> None:

@@ -3,9 +3,7 @@
 import argparse
 
 from gaitwright.cli.arg_types import finite, positive, seed
-
-KINDS = ("block", "step up", "step down", "hole", "slope")
-"""Of obstacles, as `gait.operators` has them, which is not imported for the help."""
+from gaitwright.gait.kinds import KINDS
 
 
 def add_operators(parser: argparse.ArgumentParser) -> None:

@@ -6,7 +6,7 @@ from dataclasses import replace
 from gaitwright.assess.motor_requirements import HOPELESS, shortage, too_wide
 from gaitwright.cli import trips
 from gaitwright.cli.console import remark, working
-from gaitwright.cli.driving import balance_for, operators_for, profiles_of_skill
+from gaitwright.cli.driving import balance_for, by_book, profiles_of_skill
 from gaitwright.control.takeover import HYBRID, LEARNED
 from gaitwright.errors import WrongUse
 from gaitwright.gait.climb.climber import Climber, climb_call
@@ -30,7 +30,7 @@ def run(args: Namespace) -> int:
         raise WrongUse("driver hybrid chooses skills by rules; one skill that is held needs none")
     if (args.driver == LEARNED) != (args.skillbook is not None):
         raise WrongUse("driver learned and --skillbook FILE go together: it plays the profiles of that book")
-    balance_for(args)  # a file that cannot be read is told before anything is made
+    balance = balance_for(args)  # a file that cannot be read is told before anything is made
     robot = trips.find_robot(args.robot, args.package)
     skill = find_skill(args.skill, robot)
     scene = trips.find_scene(args.scene, args.seed, robot)
@@ -44,9 +44,8 @@ def run(args: Namespace) -> int:
     setting = trips.set_up(robot, scene, chooser, args.distribution, args.sensing)
     if args.skillbook:
         profiles = profiles_of_skill(robot, args.skillbook, skill.name)
-        brain = setting.brain.with_operators(operators_for(robot, args.skillbook))
-        brain = brain.with_profiles(profiles).with_balance(balance_for(args))
-        setting = replace(setting, brain=brain)
+        brain = by_book(setting.brain, args.skillbook, profiles)
+        setting = replace(setting, brain=brain.with_balance(balance))
     if cycle:
         setting = replace(setting, brain=setting.brain.with_cycle(skill.name, cycle))
     return trips.run(setting, Mission((), args.speed, args.driver), args, push)

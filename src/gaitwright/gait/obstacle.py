@@ -7,13 +7,13 @@ does between where a foot left it and where it wants to land.
 import math
 
 from gaitwright.gait.clearance import CLEAR, LOW, MOST_LIFT, highest_near
-from gaitwright.gait.swing import on_cycle
+from gaitwright.gait.swing import on_cycle, place_in
 from gaitwright.ground.elevation import height_at, is_known
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import scale
 
 BLOCK, STEP_UP, STEP_DOWN, HOLE, SLOPE, NOTHING = 0, 1, 2, 3, 4, -1
-"""Places in `operators.KINDS`."""
+"""Places in `kinds.KINDS`."""
 LOOKS = 24
 """Places looked at along a way."""
 BEYOND = 0.6
@@ -118,9 +118,7 @@ def reach_needed(ground, origin, x, y, z, radius, lift, cycle, table, height):
 @kernel
 def force_at(table, s):
     """Force of an operator's table at share `s` of the swing, straight in between [N/m]."""
-    x = min(max(s, 0.0), 1.0) * (table.shape[0] - 1)
-    i = min(int(x), table.shape[0] - 2)
-    t = x - i
+    i, t = place_in(table, s)
     k = 1.0 - t
     return (
         k * table[i, 6] + t * table[i + 1, 6],

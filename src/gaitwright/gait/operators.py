@@ -14,11 +14,10 @@ import numpy as np
 from jaxtyping import Float
 
 from gaitwright.errors import WrongUse
+from gaitwright.gait.kinds import KINDS
 from gaitwright.gait.leg_cycles.leg_cycle import BINS
 from gaitwright.numerics.shape_preserving import curve
 
-KINDS = ("block", "step up", "step down", "hole", "slope")
-"""Of obstacles, as `gait.obstacle` tells them apart; the place of each is its number."""
 SHARES = 33
 """Rows of an operator: shares 0, 1/32, …, 1 of the swing."""
 MOST_LARGEST = 1.0

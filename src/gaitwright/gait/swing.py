@@ -57,11 +57,17 @@ def share_within(limit, x, y, along_x, along_y):
 
 
 @kernel
-def on_cycle(table, s):
-    """Row of a leg cycle's table (`gait.leg_cycles`) at share `s` of the swing, straight in between."""
+def place_in(table, s):
+    """The row of a table over the swing before share `s`, and how far it is on the way to the next."""
     x = min(max(s, 0.0), 1.0) * (table.shape[0] - 1)
     i = min(int(x), table.shape[0] - 2)
-    t = x - i
+    return i, x - i
+
+
+@kernel
+def on_cycle(table, s):
+    """Row of a leg cycle's table (`gait.leg_cycles`) at share `s` of the swing, straight in between."""
+    i, t = place_in(table, s)
     k = 1.0 - t
     return (
         k * table[i, 0] + t * table[i + 1, 0],

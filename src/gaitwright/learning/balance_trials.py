@@ -72,12 +72,16 @@ def trial(
     return Trial(robot, mine, number, rules, skill, is_pushed)
 
 
+def drawn(rng: np.random.Generator, skill: str, least: float, at: float) -> tuple[str, Push]:
+    """The ground of a run, and its push at a time [s], of `least` [N·s/kg] or more, any way, at any phase."""
+    terrain = f"rough:{rng.uniform(LOWEST, HIGHEST):.3f}" if rng.uniform() < ROUGH else "flat"
+    impulse = rng.uniform(least, MOST) * (WALKS if skill == "walk" else 1.0)
+    return terrain, Push(float(impulse), float(rng.uniform(-180.0, 180.0)), at, float(rng.uniform()))
+
+
 def pushed(trial: Trial) -> Run:
     """Makes a run."""
-    rng = np.random.default_rng([trial.number, 2505])
-    terrain = f"rough:{rng.uniform(LOWEST, HIGHEST):.3f}" if rng.uniform() < ROUGH else "flat"
-    impulse = rng.uniform(LEAST, MOST) * (WALKS if trial.skill == "walk" else 1.0)
-    push = Push(float(impulse), float(rng.uniform(-180.0, 180.0)), PUSHED_AT, float(rng.uniform()))
+    terrain, push = drawn(np.random.default_rng([trial.number, 2505]), trial.skill, LEAST, PUSHED_AT)
     robot, scene = trial.robot, scene_for(trial.robot, terrain if trial.is_pushed else "flat", trial.number)
     chooser = fixed_skill(robot, trial.skill, None, 0.0, None, LEARNED)
     brain = Brain.of(robot, scene, chooser, DT, watches=False).with_profiles(trial.profiles)

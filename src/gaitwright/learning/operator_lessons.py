@@ -16,9 +16,10 @@ from gaitwright.control.learned.profile import ROW
 from gaitwright.errors import WrongUse, unknown
 from gaitwright.gait.contacts import swing_time
 from gaitwright.gait.coordinator import Coordinator
+from gaitwright.gait.kinds import KINDS
 from gaitwright.gait.leg_cycles.files import cycle_of
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle, is_hind, sampled
-from gaitwright.gait.operators import KINDS, SHARES, Operator
+from gaitwright.gait.operators import SHARES, Operator
 from gaitwright.ground.scene import load_scene
 from gaitwright.locomotion import Brain, Lap
 from gaitwright.model.robot import Robot

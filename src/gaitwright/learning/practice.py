@@ -8,10 +8,10 @@ from gaitwright.control.learned.profile import Profile
 from gaitwright.control.takeover import HYBRID
 from gaitwright.knowledge.trust import grades_in
 from gaitwright.learning.courses import course
+from gaitwright.learning.equipped import equipped
 from gaitwright.learning.growth import Returns, grown, lived_through
 from gaitwright.learning.live import LiveLessons
 from gaitwright.learning.notes import pupil_of
-from gaitwright.learning.operator_books import operators_in
 from gaitwright.learning.own_mistakes import lesson_of
 from gaitwright.locomotion import Brain
 from gaitwright.model.robot import Robot
@@ -45,8 +45,7 @@ def practise(
     x, y, _ = asked.scene.start
     scene = replace(asked.scene, start=(x, y, asked.yaw))
     brain = Brain.of(robot, scene, dt=DT, rulebook=ledger.book.rulebook)
-    brain = brain.with_operators(operators_in(ledger.book, robot, ledger.path.name))
-    brain = brain.with_profiles(profiles, grades_in(ledger.book.trust))
+    brain = equipped(brain, ledger.book, profiles, ledger.path.name)
     mission = replace(asked.mission, driver=HYBRID)
     session = Session(brain, make_plant("mujoco", robot, scene, DT), mission, SECONDS, drawn)
     recording = record(session, drawn, scene.name)

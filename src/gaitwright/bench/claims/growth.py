@@ -16,15 +16,16 @@ from gaitwright.bench.claims.hybrid import (
     go_on,
     learn_profiles,
     profiles_in,
-    sorted_by_share,
+    share_driven,
 )
 from gaitwright.bench.context import Context
 from gaitwright.bench.evidence.beside_teacher import handed_over
 from gaitwright.bench.evidence.taught_missions import EXAMS, STARTS, Trip, starts_of
 from gaitwright.bench.measurement import Figure, at_least, at_most, count
-from gaitwright.bench.trial import Push, Trial, robot_named
+from gaitwright.bench.trial import Trial, robot_named
 from gaitwright.control.takeover import LEARNED
 from gaitwright.knowledge.trust import grades_in
+from gaitwright.learning.balance_trials import SKILLS, drawn
 from gaitwright.learning.practice import practise
 from gaitwright.skillbook.book import Skillbook
 from gaitwright.skillbook.writer import open_for_learning
@@ -33,9 +34,8 @@ from gaitwright.skills.situation import FOREST
 PRACTICE = 6
 """Trips of practice after each school."""
 PUSHED = 60
-SKILLS = ("trot", "walk", "run", "gallop")
-LEAST_PUSH, MOST_PUSH = 0.5, 2.6
-"""[N·s/kg]; walk gets 0.6 of it."""
+LEAST_PUSH = 0.5
+"""[N·s/kg]; the rest is drawn as for balance."""
 NOTE = (
     "As bench hybrid; but after each school six trips of practice on other courses, on which trust grows, "
     "and then the same thirty missions: a skilled controller drives by rules that are not firm too. Pushed "
@@ -88,12 +88,8 @@ def exams(context: Context, path: str, trips: Sequence[Trip], school: int) -> It
         asked = [Course(trip, path, plays, is_trusted=True) for trip in trips]
         found[plays] = context.each(f"missions after {school} trips and practice", driven, asked)
     hybrid, alone = found[True], found[False]
-    share = 100.0 * sum(d.learned * d.seconds for d in hybrid) / sum(d.seconds for d in hybrid)
     what = f"after a school of {school} trips and practice"
-    worst = ", ".join(f"{t.scene} {d.learned:.0%}" for t, d in sorted_by_share(list(trips), hybrid)[:3])
-    every = {"each": [d._asdict() for d in hybrid], "alone": [d._asdict() for d in alone]}
-    yield Figure(f"{what}: share of the time driven by the learned controller", share, "%", at_least(MUCH),
-                 len(trips), f"least: {worst}", every)  # fmt: skip
+    yield share_driven(what, trips, hybrid, alone, at_least(MUCH))
     fell, beside = (100.0 * sum(d.fell for d in some) / len(trips) for some in (hybrid, alone))
     note = f"{fell:.1f} %, numerical alone {beside:.1f} %"
     yield Figure(f"{what}: falls beyond the numerical controller's", fell - beside, "points", at_most(1.0),
@@ -115,9 +111,6 @@ def alarm(context: Context) -> Figure:
 
 def pushed(seed: int) -> Trial:
     """A run that is pushed once, everything drawn from its seed."""
-    rng = np.random.default_rng([seed, 99])
     skill = SKILLS[seed % len(SKILLS)]
-    scene = f"rough:{rng.uniform(0.05, 0.09):.3f}" if rng.uniform() < 1.0 / 3.0 else "flat"
-    impulse = float(rng.uniform(LEAST_PUSH, MOST_PUSH)) * (0.6 if skill == "walk" else 1.0)
-    push = Push(impulse, float(rng.uniform(-180.0, 180.0)), 3.0, float(rng.uniform()))
+    scene, push = drawn(np.random.default_rng([seed, 99]), skill, LEAST_PUSH, 3.0)
     return replace(handed_over(skill, seed, 7.5, scene), push=push)

@@ -1,6 +1,6 @@
 """Claim: after a school the learned controller drives most of the way on courses it has never seen."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from gaitwright.bench.context import Context
 from gaitwright.bench.evidence.taught_missions import EXAMS, STARTS, Trip, session_of, starts_of
-from gaitwright.bench.measurement import Figure, at_least, count
+from gaitwright.bench.measurement import Figure, Wanted, at_least, count
 from gaitwright.bench.trial import robot_named
 from gaitwright.control.learned.profile import Profile
 from gaitwright.knowledge.trust import grades_in
@@ -97,22 +97,24 @@ def courses(context: Context, path: str, trips: list[Trip], school: int, is_last
         for plays in (True, False)
     }
     hybrid, alone = found[True], found[False]
-    share = 100.0 * sum(d.learned * d.seconds for d in hybrid) / sum(d.seconds for d in hybrid)
     what = f"after a school of {school} trips"
-    every = {"each": [d._asdict() for d in hybrid], "alone": [d._asdict() for d in alone]}
-    worst = ", ".join(f"{t.scene} {d.learned:.0%}" for t, d in sorted_by_share(trips, hybrid)[:3])
-    wanted = at_least(MUCH) if is_last else None
-    yield Figure(f"{what}: share of the time driven by the learned controller", share, "%", wanted,
-                 len(trips), f"least: {worst}", every)  # fmt: skip
+    yield share_driven(what, trips, hybrid, alone, at_least(MUCH) if is_last else None)
     good, beside = (sum(d.arrived and not d.fell for d in some) for some in (hybrid, alone))
     note = f"numerical alone {beside} of {len(trips)}"
     note += "".join(f"; {t.scene}: {d.why}" for t, d in zip(trips, hybrid, strict=True) if not d.arrived)
     yield count(f"{what}: arrived without a fall", good, len(trips), None, note, {})
 
 
-def sorted_by_share(trips: list[Trip], found: list[Driven]) -> list[tuple[Trip, Driven]]:
-    """Courses, those first on which the learned controller drove least."""
-    return sorted(zip(trips, found, strict=True), key=lambda pair: pair[1].learned)
+def share_driven(
+    what: str, trips: Sequence[Trip], hybrid: list[Driven], alone: list[Driven], wanted: Wanted | None
+) -> Figure:
+    """The share of the time that the learned controller drove, and the missions on which it drove least."""
+    share = 100.0 * sum(d.learned * d.seconds for d in hybrid) / sum(d.seconds for d in hybrid)
+    in_order = sorted(zip(trips, hybrid, strict=True), key=lambda pair: pair[1].learned)
+    worst = ", ".join(f"{trip.scene} {d.learned:.0%}" for trip, d in in_order[:3])
+    every = {"each": [d._asdict() for d in hybrid], "alone": [d._asdict() for d in alone]}
+    return Figure(f"{what}: share of the time driven by the learned controller", share, "%", wanted,
+                  len(trips), f"least: {worst}", every)  # fmt: skip
 
 
 def driven(course: Course) -> Driven:
