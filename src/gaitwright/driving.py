@@ -7,7 +7,6 @@ compiled call (`one_call`), with the same outcome.
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from time import perf_counter_ns
 from typing import NamedTuple
 
 from gaitwright.control.alarm import QUIET, Alarm, Heard
@@ -43,10 +42,9 @@ class Memories(NamedTuple):
     balance: Balanced = STEADY
 
 
-Driven = tuple[SkillCall, MotionTarget, Memory, Drive, Controller, MotorCommand, Memory, int]
+Driven = tuple[SkillCall, MotionTarget, Memory, Drive, Controller, MotorCommand, Memory]
 """What gait and control made of a call: the call with who drives it, the target, the gait's memory, who
-drives, the controller, its command and memory, and when its part began [ns]. A plain tuple, as one is made in
-every lap."""
+drives, the controller, its command and memory. A plain tuple, as one is made in every lap."""
 
 
 @dataclass(frozen=True)
@@ -91,14 +89,13 @@ class Driving:
         """Gait, then who drives, then control. `wanted`: the call as balance has the gait asked for it."""
         wanted = wanted if self.alarm is None else self.alarm.calmed(wanted, before.alarm)
         target, gait = self.coordinator.move(before.gait, wanted, sensed, ground)
-        handed = perf_counter_ns()
         used = with_gait_in_use(call, gait)
         drive = self.driver_of(call, used.gait, target, sensed.time, before)
         call = drive.call or call
         controller = self.controller(call.driver)
         own = before.control if before.controller is controller else None
         command, control = controller.command(target, sensed, own, used, ground)
-        return call, target, gait, drive, controller, command, control, handed
+        return call, target, gait, drive, controller, command, control
 
     def driver_of(
         self, call: SkillCall, gait: Gait, target: MotionTarget, time: float, before: Memories
@@ -120,7 +117,6 @@ class Driving:
         one, takeover, drive = self.one_call, self.takeover, UNDECIDED
         if one is None or call.driver not in (LEARNED, HYBRID):
             return None
-        handed = perf_counter_ns()
         tick = one.tick(before.gait, wanted, sensed, ground)
         if tick is None:
             return None
@@ -132,7 +128,7 @@ class Driving:
             drive = takeover.decided(call, gait.gait, is_known, sensed.time, before.drive, before.control)
             if drive.driver != LEARNED:
                 return None
-        return drive.call or call, target, gait, drive, one.learned, command, played, handed
+        return drive.call or call, target, gait, drive, one.learned, command, played
 
 
 def with_gait_in_use(call: SkillCall, memory: Memory) -> SkillCall:

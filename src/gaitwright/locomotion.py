@@ -216,7 +216,7 @@ class Lap(NamedTuple):
     target: MotionTarget
     command: MotorCommand
     took: tuple[float, float]
-    """Time for the whole tick, and for the controller; where profiles are played, for the gait too [µs]."""
+    """Time for the whole tick, and for gait and control in it [µs]."""
     stopped_because: str | None = None
     """Why the run ends with this lap."""
     arrived: bool = False
@@ -238,9 +238,9 @@ def think(brain: Brain, mind: Mind, measured: Measured) -> tuple[Lap, Mind]:
     if watch is not None:
         sensed, watched = watch.check(measured, sensed, watched)
     mind, travelled = plan_and_choose(brain, mind, sensed, ground)
-    before, alarm = mind.memories, brain.alarm
+    before, alarm, handed = mind.memories, brain.alarm, perf_counter_ns()
     driven = brain.driving.tick(before, mind.call, sensed, ground)
-    call, target, gait, drive, controller, command, control, handed = driven
+    call, target, gait, drive, controller, command, control = driven
     change = before.change
     if before.controller is not controller:
         change = begun(before.command, command, sensed.time)

@@ -20,7 +20,8 @@ HEAD = (
     "J/m",
     "ended",
 )
-"""Shares of the ticks; the median of a whole tick, and of either controller in it [µs]; cost of transport."""
+"""Shares of the ticks; medians of a whole tick, and of gait and control in it by either driver [µs]; cost of
+transport."""
 
 
 def show_trips(trips: Iterable[tuple[str, Report]], to_stderr: bool) -> None:

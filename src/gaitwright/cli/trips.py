@@ -214,7 +214,7 @@ def table_of(report: Report, wall: float, goal: bool) -> list[tuple[str, str]]:
     drivers = ", ".join(f"{name} {share:.0%}" for name, share in report.driver_share.items())
     pace = f"{report.duration_s / wall:.1f} × real time" if wall > 0 else ""
     paces = [
-        f"{'a control step' if name == 'lap' else f'driver {name}'} {took['median']:.0f} µs, "
+        f"{'a control step' if name == 'lap' else f'{name} gait and control'} {took['median']:.0f} µs, "
         f"99 of 100 within {took['p99']:.0f} µs"
         for name, took in report.tick_us.items()
     ]

@@ -44,7 +44,7 @@ class Report:
     driver_share: dict[str, float]
     """Share of the ticks each driver had."""
     tick_us: dict[str, dict[str, float]]
-    """Time of a tick [µs], median and p99: the whole lap, and each controller alone."""
+    """Time of a tick [µs], median and p99: the whole lap, and gait and control by each driver."""
     skills: list[str]
     """Skills in the order of their use."""
     desirability: float
@@ -161,7 +161,7 @@ def joint_work(tau: Series, qd: Series, dt: float) -> float:
 
 
 def tick_times(took: Series, driver: Series, names: Iterable[str]) -> dict[str, dict[str, float]]:
-    """Median and 99th percentile [µs] of the whole lap and of the controller of each driver that ticked."""
+    """Median and 99th percentile [µs] of whole laps, and of gait and control by each driver that ticked."""
     every = list(parts(len(took)))
     out = {"lap": middle_and_tail(np.concatenate([took[part][:, 0].copy() for part in every]))}
     for number, name in enumerate(names):
