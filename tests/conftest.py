@@ -2,7 +2,6 @@
 
 import inspect
 import os
-from pathlib import Path
 
 import numba
 import numpy as np
@@ -18,12 +17,6 @@ settings.register_profile(
     "ci", deadline=None, max_examples=EXAMPLES, phases=PHASES, derandomize=True, print_blob=True
 )
 settings.load_profile("ci" if os.environ.get("CI") else "here")
-
-WORKER = os.environ.get("PYTEST_XDIST_WORKER")
-if WORKER:
-    # Numba's cache is not made for two that write into it at once: each process keeps its own kernels.
-    _CACHE = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-    os.environ["XDG_CACHE_HOME"] = str(_CACHE / "gaitwright" / "tests" / WORKER)
 
 
 def _compile_the_function_itself(decorate):

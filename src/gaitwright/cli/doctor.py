@@ -16,7 +16,7 @@ from shutil import get_terminal_size
 from gaitwright.cli.output import check_json, write_json
 from gaitwright.cli.sentences import between_words
 
-CORE = ("jaxtyping", "msgspec", "mujoco", "numba", "numpy", "rich", "shapely")
+CORE = ("filelock", "jaxtyping", "msgspec", "mujoco", "numba", "numpy", "rich", "shapely")
 """What Gaitwright cannot run without, by the names of modules and distributions."""
 EXTRAS = {"plot": ("matplotlib",), "record": ("mcap-ros2-support",)}
 MODULES = {"mcap-ros2-support": "mcap_ros2"}

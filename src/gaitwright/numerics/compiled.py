@@ -8,15 +8,21 @@ kernel files and all that they import cannot.
 import hashlib
 import os
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
 import numba
+from filelock import FileLock
 from numba import njit
+from numba.core.compiler_lock import global_compiler_lock
+from numba.core.sigutils import normalize_signature
 
 settings: Any = vars(numba)["config"]  # its names are set at run time
 
+LONGEST = 600.0
+"""Nobody waits longer for another process that compiles a kernel [s]."""
 IMPORTED = re.compile(rb"^from gaitwright\.([\w.]+) import", re.MULTILINE)
 
 
@@ -55,10 +61,41 @@ def is_warm(longest: str = "coordinator.coordinate") -> bool:
 if not settings.CACHE_DIR:
     settings.CACHE_DIR = str(cache_folder())
 
-kernel: Callable[[Callable[..., Any]], Callable[..., Any]] = njit(cache=True, error_model="numpy")
-"""Marks a function as a kernel: plain arithmetic on arrays and tuples, compiled at its first call."""
 
-kernel_nogil: Callable[[Callable[..., Any]], Callable[..., Any]] = njit(
-    cache=True, error_model="numpy", nogil=True
-)
-"""The same for long work: it lets go of Python's lock, so that threads run it side by side."""
+def alone(compiled: Any) -> Any:
+    """A compiled function that only one process at a time compiles; who waited loads what the other made.
+
+    numba writes a kernel's index and its code one after the other and without a lock: of two processes at it
+    at once, one may be left with an index that names the other's code.
+    """
+    function, compile_it = compiled.py_func, compiled.compile
+    lock = Path(settings.CACHE_DIR) / "locks" / f"{function.__module__}.{function.__qualname__}"
+
+    def compile_alone(signature: Any) -> Any:
+        if tuple(normalize_signature(signature)[0]) in compiled.overloads:
+            return compile_it(signature)
+        with global_compiler_lock, held(lock):  # numba's own lock, of this process, always first
+            return compile_it(signature)
+
+    compiled.compile = compile_alone
+    return compiled
+
+
+@contextmanager
+def held(lock: Path) -> Iterator[None]:
+    """Holds a lock between processes; goes on without where there cannot be one, or after `LONGEST`."""
+    with ExitStack() as holding:
+        with suppress(OSError):  # a timeout is one, as is a folder that nobody may write to
+            lock.parent.mkdir(parents=True, exist_ok=True)
+            holding.enter_context(FileLock(lock, timeout=LONGEST))
+        yield
+
+
+def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Marks a function as a kernel: plain arithmetic on arrays and tuples, compiled at its first call."""
+    return alone(njit(cache=True, error_model="numpy")(function))
+
+
+def kernel_nogil(function: Callable[..., Any]) -> Callable[..., Any]:
+    """The same for long work: it lets go of Python's lock, so that threads run it side by side."""
+    return alone(njit(cache=True, error_model="numpy", nogil=True)(function))
