@@ -95,14 +95,23 @@ class Camera:
         return about_axis(1, self.tilt)
 
     @cached_property
-    def rays(self) -> Float[np.ndarray, "pixels 3"]:
-        """Unit directions of the rays, base axes; row by row from above, each from left to right."""
-        y = math.tan(self.across / 2) * (1.0 - (2.0 * np.arange(self.columns) + 1.0) / self.columns)
-        z = math.tan(self.upright / 2) * (1.0 - (2.0 * np.arange(self.rows) + 1.0) / self.rows)
+    def lens(self) -> tuple[float, float, float]:
+        """Half the width and half the height of what it sees at a distance of one metre, and its range [m]."""
+        return math.tan(self.across / 2), math.tan(self.upright / 2), self.range
+
+    @cached_property
+    def rays_c(self) -> Float[np.ndarray, "pixels 3"]:
+        """Unit directions of the rays, camera axes; row by row from above, each from left to right."""
+        y = self.lens[0] * (1.0 - (2.0 * np.arange(self.columns) + 1.0) / self.columns)
+        z = self.lens[1] * (1.0 - (2.0 * np.arange(self.rows) + 1.0) / self.rows)
         wide, high = np.meshgrid(y, z)
         rays = np.column_stack([np.ones(wide.size), wide.ravel(), high.ravel()])
-        rays /= np.linalg.norm(rays, axis=1, keepdims=True)
-        return rays @ self.axes.T
+        return rays / np.linalg.norm(rays, axis=1, keepdims=True)
+
+    @cached_property
+    def rays(self) -> Float[np.ndarray, "pixels 3"]:
+        """The same, base axes."""
+        return np.ascontiguousarray(self.rays_c @ self.axes.T)
 
     def eye(
         self, position_w: Float[np.ndarray, "3"], rotation_wb: Float[np.ndarray, "3 3"]

@@ -18,9 +18,9 @@ from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import rotation, times, vec
 from gaitwright.signals import DepthFrame, Sensed
 
-CELL = 0.005
+CELL = 0.0033
 """Side of a cell, as a share of the camera's range [-]: 1.6 cm for a Go2's."""
-MOST_CELLS = 2_000_000
+MOST_CELLS = 3_000_000
 """A scene of more is drawn as far as this many reach around the robot, and anew where it has walked on."""
 TILE = 16
 """Cells along a side of a tile: rays above everything in a tile pass it in one stride."""
@@ -150,7 +150,7 @@ def crossings(low, cell, origin, way):
 
 @kernel
 def start_of(eye, ray, highest):
-    """How far along a ray it comes down to the highest place of a relief [m]; infinite where it never does."""
+    """How far along a ray it comes down to the highest place of a relief [m]; infinite where never."""
     if eye[2] <= highest:
         return 0.0
     return (eye[2] - highest) / -ray[2] if ray[2] < 0.0 else math.inf
@@ -176,7 +176,7 @@ def met(place, planes, i, j, eye, ray, s, end):
 
 @kernel
 def cast_one(place, planes, tops, eye, ray, s, reach):
-    """Distance along one ray to the relief [m], looked for from `s` on; NaN where there is none in `reach`."""
+    """Distance along one ray to the relief [m], looked for from `s` on; NaN if none is in `reach`."""
     cell, (rows, columns, _) = place[2], planes.shape
     step_x, first_x, gain_x = crossings(place[0], cell, eye[0], ray[0])
     step_y, first_y, gain_y = crossings(place[1], cell, eye[1], ray[1])
