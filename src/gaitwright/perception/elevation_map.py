@@ -34,10 +34,8 @@ what the camera sees first."""
 class ElevationMap:
     """What was seen and felt of the ground around a robot."""
 
-    spacing: float
-    """Side of a cell [m]."""
-    edge: float
-    """A break of the ground by more than this is an edge [m]."""
+    height: float
+    """Of the robot's body [m]: in it is said what is sudden, narrow or near."""
     first: tuple[int, int]
     """Row and column of the window's lowest cell in the world's lattice, whose cell (0, 0) is around x = y = 0."""
     cells: Float32[np.ndarray, "n n 5"]
@@ -51,7 +49,17 @@ class ElevationMap:
         cells = np.empty((CELLS, CELLS, 5), np.float32)
         cells[:] = (np.nan, np.inf, np.inf, -np.inf, -np.inf)
         first = (-CELLS // 2, -CELLS // 2)
-        return cls(SPACING * robot.height, EDGE * robot.height, first, cells, keep)
+        return cls(robot.height, first, cells, keep)
+
+    @property
+    def spacing(self) -> float:
+        """Side of a cell [m], as feet want it."""
+        return SPACING * self.height
+
+    @property
+    def edge(self) -> float:
+        """A break of the ground by more than this is an edge [m]."""
+        return EDGE * self.height
 
     @property
     def n(self) -> int:
