@@ -24,8 +24,9 @@ WORSE = 2.0
 """Factor on the variance of a cell for a ray that goes through it."""
 LOST = 2.0
 """A cell of more variance than this, in those of one look, is given up."""
-BENEATH = 1.5
-"""A cell is looked through where the camera sees past it this far under its height, in cells."""
+BENEATH = 0.75
+"""A cell is looked through where the camera sees past it this far under its height, in cells; the pixel is chosen
+twice as far under it and half a pixel, so that its ray lies there for sure."""
 
 
 @kernel
@@ -116,7 +117,9 @@ def look_through(cells, first, spacing, eye, R_wc, rays, ranges, lens, noise, no
             if now - cells[i, j, SEEN] > keep:
                 forget(cells[i, j])
                 continue
-            dx, dz = (first[1] + v) * spacing - eye[0], cells[i, j, HEIGHT] - BENEATH * spacing - eye[2]
+            dx = (first[1] + v) * spacing - eye[0]
+            lower = 2.0 * BENEATH * spacing + high / rows * max(abs(dx), abs(dy))
+            dz = cells[i, j, HEIGHT] - lower - eye[2]
             ahead = R_wc[0, 0] * dx + R_wc[1, 0] * dy + R_wc[2, 0] * dz
             if ahead <= 0.0 or ahead > reach:
                 continue

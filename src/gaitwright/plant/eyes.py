@@ -110,7 +110,7 @@ class Eyes:
         x_min, y_min, x_max, y_max = self.scene.bounds
         lower = max(eye[0] - reach, x_min) >= x and max(eye[1] - reach, y_min) >= y
         far_x, far_y = min(eye[0] + reach, x_max), min(eye[1] + reach, y_max)
-        return lower and far_x <= x + cell * columns and far_y <= y + cell * rows
+        return bool(lower and far_x <= x + cell * columns and far_y <= y + cell * rows)
 
 
 # --- kernels ---------------------------------------------------------------------------------------
