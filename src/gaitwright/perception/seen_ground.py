@@ -65,40 +65,44 @@ def write_grid(cells, first, edge, heights, edges, known):
         for v in range(n):
             j = before + v if before + v < n else before + v - n
             known[u, v] = 1.0 if cells[i, j, VARIANCE] < math.inf else 0.0
-            heights[u, v] = cells[i, j, HEIGHT]
-            edges[u, v] = 1.0 if cells[i, j, HIGH] - cells[i, j, LOW] > edge else 0.0
-    fill(heights, known, edge)
-    mark_breaks(heights, edge, edges)
+            split = cells[i, j, HIGH] - cells[i, j, LOW] > edge
+            heights[u, v] = cells[i, j, HIGH] if split else cells[i, j, HEIGHT]
+            edges[u, v] = 1.0 if split else 0.0
+    somewhere = fill(heights, known, edge)
+    mark_breaks(heights, known, edge, edges)
     for u in range(n):
         for v in range(n):
             edges[u, v] = max(edges[u, v], 1.0 - known[u, v])
+            heights[u, v] = somewhere if math.isnan(heights[u, v]) else heights[u, v]
 
 
 @kernel
 def fill(heights, known, edge):
     """Gives unknown cells the height of the nearest known one in their row or column; bridges small gaps.
 
-    Those with nothing known in either get the level of the one before them. Bridged ones become known.
+    Those with nothing known in either stay NaN; a height that is known is given for them. Bridged ones become
+    known.
     """
-    n = heights.shape[0]
+    n, last = heights.shape[0], 0.0
     west, south = np.empty((n, n), np.int32), np.empty((n, n), np.int32)
     for u in range(n):  # how many cells away the last known one is
         for v in range(n):
             west[u, v] = 0 if known[u, v] > 0.0 else west[u, v - 1] + 1 if v > 0 else FAR
             south[u, v] = 0 if known[u, v] > 0.0 else south[u - 1, v] + 1 if u > 0 else FAR
-    north, last = np.full(n, FAR, np.int32), 0.0
+            last = heights[u, v] if known[u, v] > 0.0 else last
+    north = np.full(n, FAR, np.int32)
     for u in range(n - 1, -1, -1):
         east = FAR
         for v in range(n - 1, -1, -1):
             if known[u, v] > 0.0:
-                last, north[v], east = heights[u, v], 0, 0
+                north[v], east = 0, 0
                 continue
             north[v] += 1
             east += 1
             w, s = west[u, v], south[u, v]
             near = min(min(w, east), min(s, north[v]))
             if near >= FAR:
-                heights[u, v] = last
+                heights[u, v] = math.nan
                 continue
             a, b, z_a, z_b = w, east, math.nan, math.nan
             if min(s, north[v]) < min(w, east):
@@ -114,15 +118,20 @@ def fill(heights, known, edge):
     for u in range(n):
         for v in range(n):
             known[u, v] = 1.0 if known[u, v] > 0.0 else 0.0
+    return last
 
 
 @kernel
-def mark_breaks(heights, step, edges):
-    """The law of `ground.elevation.edges`: 1 where the ground breaks by more than `step` [m] near by."""
+def mark_breaks(heights, known, step, edges):
+    """The law of `ground.elevation.edges`: 1 where the ground breaks by more than `step` [m] near by.
+
+    A break is seen by two places at least: what the unknown was filled with makes none.
+    """
     n, half = heights.shape[0], MARGIN // 2
     for u in range(half, n - half):
         for v in range(half, n - half):
             twice = 2.0 * heights[u, v]
             for du, dv in ((0, half), (half, 0), (half, half), (half, -half)):
-                if abs(heights[u - du, v - dv] - twice + heights[u + du, v + dv]) > step:
+                seen = known[u - du, v - dv] + known[u, v] + known[u + du, v + dv]
+                if seen > 1.5 and abs(heights[u - du, v - dv] - twice + heights[u + du, v + dv]) > step:
                     edges[u - du, v - dv] = edges[u + du, v + dv] = 1.0
