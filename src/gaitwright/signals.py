@@ -81,6 +81,29 @@ class Mission:
     """Who computes the torques."""
 
 
+@dataclass(frozen=True, eq=False)
+class DepthFrame:
+    """What a depth camera saw, whatever camera it was (`model.camera` has its rays)."""
+
+    ranges: Float[np.ndarray, "rows columns"]
+    """Distance along each pixel's ray [m], from above and from the left; NaN where nothing came back."""
+    time: float
+    """When, since the start [s]."""
+
+
+class Sight(NamedTuple):
+    """What one look shows of what is too high to step on, seen from above, world x, y [m]."""
+
+    eye: tuple[float, float]
+    """From where."""
+    pieces: Float[np.ndarray, "n 4"]
+    """Pieces of edges: x0, y0, x1, y1, with the ground on their left."""
+    corners: Bool[np.ndarray, "n 2"]
+    """At each end of a piece, whether free ground was seen beyond it; else range, view or cover ended it."""
+    free: Float[np.ndarray, "m 2"]
+    """Rim of what was seen to be free: star-shaped around the eye, anticlockwise; the eye may lie on it."""
+
+
 class ElevationGrid(NamedTuple):
     """Heights on a grid, as feet and kernels read them (`ground.elevation`); no nodes: nothing is known."""
 
