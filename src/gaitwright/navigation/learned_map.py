@@ -1,0 +1,158 @@
+"""Sights, contacts and trips → a map that knows the shortest way, if there is one (thesis 6.2).
+
+Kept are pieces of edges that were seen, and which ground was seen to be free; what is unknown is taken for
+free. So nothing imagined ever blocks, "no way" is true as soon as it is said, and a way that nothing new
+comes near stays the shortest.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Self
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from gaitwright.errors import WrongUse, unknown
+from gaitwright.navigation.path_check import crossed, is_path_cut
+from gaitwright.navigation.piece_rows import CORNERS, Rows, joined_rows, rows_of
+from gaitwright.navigation.planning import Point, Way, best_way
+from gaitwright.navigation.raster import Raster, blank, with_sight, with_way
+from gaitwright.navigation.roads import Bounds, RoadMap, fence
+from gaitwright.navigation.sight import Sight
+from gaitwright.navigation.tolerances import CHECK, DEEP
+from gaitwright.navigation.unlearning import unlearned
+
+STRATEGIES = ("optimistic", "thesis")
+"""How a way is chosen where the map is blank."""
+FELT = 0.15
+"""A contact is a piece of this length to either side [m]."""
+
+
+@dataclass(frozen=True, eq=False)
+class LearnedMap:
+    """What was learned of a field, for a disc; who learns more makes a new one."""
+
+    bounds: Bounds
+    """x_min, y_min, x_max, y_max of the field [m]: a fence."""
+    radius: float
+    """Of the disc [m]."""
+    strategy: str
+    noise: float
+    """Standard deviation of where pieces were seen [m]."""
+    rows: Rows
+    raster: Raster
+    trips: tuple[tuple[Point, ...], ...] = ()
+    """Ways that were walked."""
+
+    # --- made -----------------------------------------------------------------------------------
+    @classmethod
+    def of(cls, bounds: Bounds, radius: float, strategy: str = "optimistic", noise: float = 0.0) -> Self:
+        """An empty map. Raises `WrongUse` for a field, a disc or a strategy that makes no sense."""
+        if strategy not in STRATEGIES:
+            raise unknown("strategy", strategy, STRATEGIES)
+        x_min, y_min, x_max, y_max = bounds
+        if not (all(map(math.isfinite, bounds)) and x_min < x_max and y_min < y_max):
+            raise WrongUse(f"a field from ({x_min:g}, {y_min:g}) to ({x_max:g}, {y_max:g}) has no room")
+        if not (math.isfinite(radius) and radius > 0.0 and math.isfinite(noise) and noise >= 0.0):
+            raise WrongUse(f"a disc of radius {radius:g} m seen with a noise of {noise:g} m makes no sense")
+        return cls(bounds, radius, strategy, noise, rows_of(np.empty((0, 4)), True), blank(bounds))
+
+    @classmethod
+    def of_polygons(cls, bounds: Bounds, radius: float, polygons: Sequence[Sequence[Point]]) -> Self:
+        """A field that is known from the start; outlines (closed by themselves) may touch, overlap, cross
+        themselves, lie in each other or have no area."""
+        empty = cls.of(bounds, radius)
+        rings = [np.array(ring, dtype=float).reshape(-1, 2) for ring in polygons if len(ring)]
+        edges = [np.hstack([ring, np.roll(ring, -1, axis=0)]) for ring in rings]
+        pieces = np.concatenate([np.empty((0, 4)), *edges])
+        require_finite(pieces)
+        known = Raster(empty.raster.place, np.ones_like(empty.raster.cells))
+        return replace(empty, rows=rows_of(pieces, True), raster=known)
+
+    # --- learned --------------------------------------------------------------------------------
+    def seen(self, sight: Sight) -> Self:
+        """With what a look showed: pieces that it went through are unlearned, those of one line join."""
+        require_finite(sight.pieces, sight.free)
+        rows = unlearned(self.rows, sight.free, self.noise)
+        rows = joined_rows(rows, rows_of(sight.pieces, sight.corners), self.noise)
+        return replace(self, rows=rows, raster=with_sight(self.raster, sight.free))
+
+    def felt(self, place: Point, direction: Point) -> Self:
+        """With a contact at `place` [m] (the point that was touched), made while moving along `direction`:
+        there is something across it. No look unlearns it, only a trip through it."""
+        require_finite(np.array([*place, *direction]))
+        size = math.hypot(*direction)
+        if size == 0.0:
+            raise WrongUse("a contact needs a direction in which it was made")
+        dx, dy = -direction[1] / size * FELT, direction[0] / size * FELT
+        piece = np.array([[place[0] - dx, place[1] - dy, place[0] + dx, place[1] + dy]])
+        return replace(self, rows=joined_rows(self.rows, rows_of(piece, False, felt=True), self.noise))
+
+    def walked(self, way: Sequence[Point]) -> Self:
+        """With a trip that was made: its ground is free, so nothing lies deep within it."""
+        points = [(float(x), float(y)) for x, y in way]
+        require_finite(np.array(points))
+        if len(points) < 2:
+            return self
+        rows = self.rows[~crossed(self.rows, np.array(points), DEEP * self.radius)]
+        raster = with_way(self.raster, points, self.radius)
+        return replace(self, rows=rows, raster=raster, trips=(*self.trips, tuple(points)))
+
+    def joined(self, other: "LearnedMap") -> Self:
+        """With what another map of the same field knows: what either holds is held, and what is gone will be
+        unlearned by a look. Raises `WrongUse` for a map of another field."""
+        if self.bounds != other.bounds:
+            raise WrongUse(f"a map of the field {self.bounds} has no place for one of {other.bounds}")
+        noise = max(self.noise, other.noise)
+        raster = Raster(self.raster.place, self.raster.cells | other.raster.cells)
+        trips = (*self.trips, *(trip for trip in other.trips if trip not in self.trips))
+        rows = joined_rows(self.rows, other.rows, noise)
+        return replace(self, rows=rows, raster=raster, noise=noise, trips=trips)
+
+    # --- asked ----------------------------------------------------------------------------------
+    def way(self, start: Point, goal: Point) -> Way | None:
+        """The way to take; `None`: there is none for a disc of radius r / cos 15° (said only if so).
+
+        A start that is too near to something is left. A goal outside the field or nearer than r to something
+        cannot be reached, unless the robot stands there. Where pieces are noisy, `None` is said only if
+        there is none for a disc narrower by twice the noise either.
+        """
+        require_finite(np.array([*start, *goal]))
+        way = best_way(self.road_map, self.raster, start, goal)
+        if way is None and self.noise > 0.0:
+            return best_way(self.narrow_road_map, self.raster, start, goal)
+        return way
+
+    def is_cut(self, path: Sequence[Point]) -> bool:
+        """Whether what is known now comes within r of a path [m], and nearer than to its beginning, where the
+        robot stands."""
+        room = self.radius - 2.0 * self.noise - CHECK
+        return is_path_cut(self.pieces, path, room) or is_path_cut(fence(self.bounds), path, room)
+
+    @property
+    def pieces(self) -> Float[np.ndarray, "n 4"]:
+        """x0, y0, x1, y1 of what is known of obstacles' edges [m]."""
+        return self.rows[:, :4]
+
+    @property
+    def corners(self) -> Bool[np.ndarray, "n 2"]:
+        """Which of their ends are corners."""
+        return self.rows[:, CORNERS] > 0.0
+
+    @cached_property
+    def road_map(self) -> RoadMap:
+        """The roads among what is known."""
+        return RoadMap(self.bounds, self.radius, self.pieces)
+
+    @cached_property
+    def narrow_road_map(self) -> RoadMap:
+        """The roads of a disc that is narrower by what the noise may have added."""
+        return RoadMap(self.bounds, max(self.radius - 2.0 * self.noise, 0.5 * self.radius), self.pieces)
+
+
+def require_finite(*arrays: np.ndarray) -> None:
+    """Raises `WrongUse` where a number is none."""
+    if not all(np.isfinite(array).all() for array in arrays):
+        raise WrongUse("a place of a map must be finite numbers")
