@@ -33,9 +33,12 @@ def fence_edges(bounds) -> np.ndarray:
 def look(edges: np.ndarray, eye, heading=0.0, view=ALL_ROUND, reach=3.0) -> Sight:
     """What is truly seen of edges from a place: rays every 2° and to both sides of every edge's end."""
     eye = np.array(eye, dtype=float)
+    edges = edges[points_apart(eye[None], edges)[0] < reach]
     ends = edges.reshape(-1, 2) - eye
     at = np.arctan2(ends[:, 1], ends[:, 0])
-    angles = np.concatenate([at - 1e-7, at, at + 1e-7, heading + np.arange(-view / 2, view / 2, math.radians(2))])
+    angles = np.concatenate(
+        [at - 1e-7, at, at + 1e-7, heading + np.arange(-view / 2, view / 2, math.radians(2))]
+    )
     off = np.sort((angles - heading + math.pi) % (2 * math.pi) - math.pi)
     off = off[np.abs(off) <= view / 2]
     if view < ALL_ROUND:
@@ -102,14 +105,16 @@ class Trip:
 
 
 def walk(edges, learned: LearnedMap, start, goal, view=ALL_ROUND, reach=3.0, step=0.3, noise=None) -> Trip:
-    """Walks by a map among edges: looks every `step` [m], feels what it touches; ends at the goal or at `None`."""
+    """Walks by a map: looks every `step` [m], feels what it touches; ends at the goal or at `None`."""
     here, heading = np.array(start, dtype=float), math.atan2(goal[1] - start[1], goal[0] - start[0])
     trip = Trip(False, learned, [tuple(start)])
     path: tuple = ()
     for _ in range(4000):
         sight = look(edges, here, heading, view, reach)
         if noise is not None:
-            sight = sight._replace(pieces=sight.pieces + noise.normal(0.0, 0.01, sight.pieces.shape).clip(-0.02, 0.02))
+            sight = sight._replace(
+                pieces=sight.pieces + noise.normal(0.0, 0.01, sight.pieces.shape).clip(-0.02, 0.02)
+            )
         trip.learned = trip.learned.seen(sight)
         place = (float(here[0]), float(here[1]))
         if not path or trip.learned.is_cut((place, *path)):
@@ -143,14 +148,13 @@ def walk(edges, learned: LearnedMap, start, goal, view=ALL_ROUND, reach=3.0, ste
 
 
 def room_ahead(edges, here, direction, most) -> float:
-    """How far a disc may go before it is nearer than r - 0.5 mm to an edge (and nearer than where it began)."""
-    lines = shapely.linestrings(edges.reshape(-1, 2, 2))
-    own = shapely.distance(lines, Point(here))
-    room = np.minimum(RADIUS - 5e-4, own - 1e-9)
+    """How far a disc may go before it is nearer than r - 0.5 mm to an edge, and nearer than it began."""
+    own = points_apart(here[None], edges)[0]
+    near = own < most + RADIUS
+    edges, room = edges[near], np.minimum(RADIUS - 5e-4, own[near] - 1e-9)
 
     def is_free(far: float) -> bool:
-        leg = LineString([here, here + direction * far])
-        return bool((shapely.distance(lines, leg) >= room).all())
+        return bool((lines_apart(here, here + direction * far, edges) >= room).all())
 
     if is_free(most):
         return most
@@ -161,9 +165,34 @@ def room_ahead(edges, here, direction, most) -> float:
     return low
 
 
+def points_apart(points, edges) -> np.ndarray:
+    """Distance of every point from every edge."""
+    a, d = edges[None, :, :2], edges[None, :, 2:] - edges[None, :, :2]
+    away = points[:, None] - a
+    t = np.clip((away * d).sum(-1) / np.maximum((d * d).sum(-1), 1e-300), 0.0, 1.0)
+    return np.hypot(*np.moveaxis(away - t[..., None] * d, -1, 0))
+
+
+def lines_apart(a, b, edges) -> np.ndarray:
+    """Distance of a line from every edge; 0 where they cross."""
+    line = np.concatenate([a, b])[None]
+    ends = points_apart(np.stack([a, b]), edges).min(axis=0)
+    theirs = points_apart(edges.reshape(-1, 2), line).reshape(-1, 2).min(axis=1)
+
+    def side(p, q, r):
+        return (q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1]) - (q[..., 1] - p[..., 1]) * (
+            r[..., 0] - p[..., 0]
+        )
+
+    p, q = edges[:, :2], edges[:, 2:]
+    crosses = (side(a, b, p) * side(a, b, q) < 0.0) & (side(p, q, a) * side(p, q, b) < 0.0)
+    return np.where(crosses, 0.0, np.minimum(ends, theirs))
+
+
 def nearest_on(edges, place):
+    """The point of the edges that is nearest to a place."""
     lines = shapely.linestrings(edges.reshape(-1, 2, 2))
-    line = lines[int(np.argmin(shapely.distance(lines, Point(place))))]
+    line = np.atleast_1d(lines)[int(np.argmin(shapely.distance(lines, Point(place))))]
     point = line.interpolate(line.project(Point(place)))
     return (point.x, point.y)
 
@@ -183,7 +212,7 @@ def exists(edges, bounds, start, goal, radius) -> bool:
 
 
 def shortest(edges, bounds, start, goal, radius, quad_segs=12) -> float:
-    """Length of the shortest path of a disc by all pairs of the outline's vertices; a little below (chords)."""
+    """Length of a disc's shortest path by all pairs of the outline's vertices; a little below (chords)."""
     lines = shapely.linestrings(np.vstack([edges, fence_edges(bounds)]).reshape(-1, 2, 2))
     solid = shapely.union_all(shapely.buffer(lines, radius, quad_segs=quad_segs))
     rings = [r for p in getattr(solid, "geoms", [solid]) for r in (p.exterior, *p.interiors)]
@@ -194,7 +223,7 @@ def shortest(edges, bounds, start, goal, radius, quad_segs=12) -> float:
     inside[:2] = True
     nodes = nodes[inside]
     i, j = np.triu_indices(len(nodes), 1)
-    links = shapely.linestrings(np.stack([nodes[i], nodes[j]], axis=1))
+    links = np.atleast_1d(shapely.linestrings(np.stack([nodes[i], nodes[j]], axis=1)))
     clear = ~shapely.intersects(shrunk, links)
     graph = np.zeros((len(nodes), len(nodes)))
     graph[i[clear], j[clear]] = np.maximum(shapely.length(links[clear]), 1e-12)
@@ -221,3 +250,63 @@ def random_polygons(rng, count, bounds, size=(0.3, 1.2), away=(), room=0.5):
         if all(hull.distance(Point(place)) > room for place in away):
             out.append([tuple(map(float, c)) for c in corners])
     return out
+
+
+def maze(rng, cells, room=1.0, thick=0.1, doors=0):
+    """Walls of a random maze of `cells` × `cells` rooms, each wall a box that touches others edge to edge;
+    so many further walls are left out."""
+    open_, seen, stack = set(), {(0, 0)}, [(0, 0)]
+    while stack:
+        x, y = stack[-1]
+        around = [(x + dx, y + dy) for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1))]
+        new = [c for c in around if min(c) >= 0 and max(c) < cells and c not in seen]
+        if not new:
+            stack.pop()
+            continue
+        there = new[int(rng.integers(len(new)))]
+        open_.add(frozenset([(x, y), there]))
+        seen.add(there)
+        stack.append(there)
+    pairs = [
+        frozenset([(x, y), (x + dx, y + dy)])
+        for x in range(cells)
+        for y in range(cells)
+        for dx, dy in ((1, 0), (0, 1))
+        if x + dx < cells and y + dy < cells
+    ]
+    walls = [pair for pair in pairs if pair not in open_]
+    for k in rng.permutation(len(walls))[: len(walls) - doors]:
+        (xa, ya), (xb, yb) = sorted(walls[k])
+        if xa == xb:
+            yield [
+                (room * xa, room * yb - thick / 2),
+                (room * (xa + 1), room * yb - thick / 2),
+                (room * (xa + 1), room * yb + thick / 2),
+                (room * xa, room * yb + thick / 2),
+            ]
+        else:
+            yield [
+                (room * xb - thick / 2, room * ya),
+                (room * xb + thick / 2, room * ya),
+                (room * xb + thick / 2, room * (ya + 1)),
+                (room * xb - thick / 2, room * (ya + 1)),
+            ]
+
+
+def box_at(x, y, lx, ly, yaw=0.0):
+    """Corners of a box by its centre, sides and angle."""
+    c, s = math.cos(yaw), math.sin(yaw)
+    corners = [(-lx / 2, -ly / 2), (lx / 2, -ly / 2), (lx / 2, ly / 2), (-lx / 2, ly / 2)]
+    return [(x + c * u - s * v, y + s * u + c * v) for u, v in corners]
+
+
+def turned(points, angle, about=(0.0, 0.0)):
+    """Points turned about a place."""
+    c, s = math.cos(angle), math.sin(angle)
+    return [
+        (
+            about[0] + c * (x - about[0]) - s * (y - about[1]),
+            about[1] + s * (x - about[0]) + c * (y - about[1]),
+        )
+        for x, y in points
+    ]

@@ -1,8 +1,8 @@
 """The shortest path over roads by A*: what is not tested yet is tested when it would be gone.
 
 Hart, Nilsson and Raphael 1968, with links tested at the last moment (Cohen, Phillips and Likhachev 2015
-call it lazy weighted A*; here the weight is 1). An entry of the queue is a link, not a node; the first link to reach
-a state that stands its test is the best one.
+call it lazy weighted A*; here the weight is 1). An entry of the queue is a link, not a node; the first link
+to reach a state that stands its test is the best one.
 """
 
 import math

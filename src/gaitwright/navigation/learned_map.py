@@ -9,14 +9,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Self
 
 import numpy as np
 from jaxtyping import Bool, Float
 
 from gaitwright.errors import WrongUse, unknown
 from gaitwright.navigation.path_check import crossed, is_path_cut
-from gaitwright.navigation.piece_rows import CORNERS, Rows, joined_rows, rows_of
+from gaitwright.navigation.piece_rows import CORNERS, FELT, KIND, SUPPOSED, Rows, joined_rows, rows_of
 from gaitwright.navigation.planning import Point, Way, best_way
 from gaitwright.navigation.raster import Raster, blank, with_sight, with_way
 from gaitwright.navigation.roads import Bounds, RoadMap, fence
@@ -26,8 +25,8 @@ from gaitwright.navigation.unlearning import unlearned
 
 STRATEGIES = ("optimistic", "thesis")
 """How a way is chosen where the map is blank."""
-FELT = 0.15
-"""A contact is a piece of this length to either side [m]."""
+TOUCHED, BESIDE = 0.01, 0.15
+"""What was touched is there to this length to either side, and supposed to go on to that [m]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +47,9 @@ class LearnedMap:
 
     # --- made -----------------------------------------------------------------------------------
     @classmethod
-    def of(cls, bounds: Bounds, radius: float, strategy: str = "optimistic", noise: float = 0.0) -> Self:
+    def of(
+        cls, bounds: Bounds, radius: float, strategy: str = "optimistic", noise: float = 0.0
+    ) -> "LearnedMap":
         """An empty map. Raises `WrongUse` for a field, a disc or a strategy that makes no sense."""
         if strategy not in STRATEGIES:
             raise unknown("strategy", strategy, STRATEGIES)
@@ -60,7 +61,7 @@ class LearnedMap:
         return cls(bounds, radius, strategy, noise, rows_of(np.empty((0, 4)), True), blank(bounds))
 
     @classmethod
-    def of_polygons(cls, bounds: Bounds, radius: float, polygons: Sequence[Sequence[Point]]) -> Self:
+    def of_polygons(cls, bounds: Bounds, radius: float, polygons: Sequence[Sequence[Point]]) -> "LearnedMap":
         """A field that is known from the start; outlines (closed by themselves) may touch, overlap, cross
         themselves, lie in each other or have no area."""
         empty = cls.of(bounds, radius)
@@ -72,25 +73,29 @@ class LearnedMap:
         return replace(empty, rows=rows_of(pieces, True), raster=known)
 
     # --- learned --------------------------------------------------------------------------------
-    def seen(self, sight: Sight) -> Self:
+    def seen(self, sight: Sight) -> "LearnedMap":
         """With what a look showed: pieces that it went through are unlearned, those of one line join."""
         require_finite(sight.pieces, sight.free)
         rows = unlearned(self.rows, sight.free, self.noise)
         rows = joined_rows(rows, rows_of(sight.pieces, sight.corners), self.noise)
         return replace(self, rows=rows, raster=with_sight(self.raster, sight.free))
 
-    def felt(self, place: Point, direction: Point) -> Self:
+    def felt(self, place: Point, direction: Point) -> "LearnedMap":
         """With a contact at `place` [m] (the point that was touched), made while moving along `direction`:
-        there is something across it. No look unlearns it, only a trip through it."""
+        there is something across it. No look unlearns it, only a trip through it; but that it goes on to both
+        sides is only supposed."""
         require_finite(np.array([*place, *direction]))
         size = math.hypot(*direction)
         if size == 0.0:
             raise WrongUse("a contact needs a direction in which it was made")
-        dx, dy = -direction[1] / size * FELT, direction[0] / size * FELT
-        piece = np.array([[place[0] - dx, place[1] - dy, place[0] + dx, place[1] + dy]])
-        return replace(self, rows=joined_rows(self.rows, rows_of(piece, False, felt=True), self.noise))
+        across = np.array([-direction[1], direction[0]]) / size
+        rows = self.rows
+        for half, kind in ((TOUCHED, FELT), (BESIDE, SUPPOSED)):
+            piece = np.concatenate([place - half * across, place + half * across])[None]
+            rows = joined_rows(rows, rows_of(piece, False, kind), self.noise)
+        return replace(self, rows=rows)
 
-    def walked(self, way: Sequence[Point]) -> Self:
+    def walked(self, way: Sequence[Point]) -> "LearnedMap":
         """With a trip that was made: its ground is free, so nothing lies deep within it."""
         points = [(float(x), float(y)) for x, y in way]
         require_finite(np.array(points))
@@ -100,7 +105,7 @@ class LearnedMap:
         raster = with_way(self.raster, points, self.radius)
         return replace(self, rows=rows, raster=raster, trips=(*self.trips, tuple(points)))
 
-    def joined(self, other: "LearnedMap") -> Self:
+    def joined(self, other: "LearnedMap") -> "LearnedMap":
         """With what another map of the same field knows: what either holds is held, and what is gone will be
         unlearned by a look. Raises `WrongUse` for a map of another field."""
         if self.bounds != other.bounds:
@@ -116,13 +121,13 @@ class LearnedMap:
         """The way to take; `None`: there is none for a disc of radius r / cos 15° (said only if so).
 
         A start that is too near to something is left. A goal outside the field or nearer than r to something
-        cannot be reached, unless the robot stands there. Where pieces are noisy, `None` is said only if
-        there is none for a disc narrower by twice the noise either.
+        cannot be reached, unless the robot stands there. `None` is said only if there is none either without
+        what is only supposed, and where pieces are noisy for a disc narrower by twice the noise.
         """
         require_finite(np.array([*start, *goal]))
         way = best_way(self.road_map, self.raster, start, goal)
-        if way is None and self.noise > 0.0:
-            return best_way(self.narrow_road_map, self.raster, start, goal)
+        if way is None and (self.noise > 0.0 or (self.rows[:, KIND] == SUPPOSED).any()):
+            return best_way(self.sure_road_map, self.raster, start, goal)
         return way
 
     def is_cut(self, path: Sequence[Point]) -> bool:
@@ -147,9 +152,10 @@ class LearnedMap:
         return RoadMap(self.bounds, self.radius, self.pieces)
 
     @cached_property
-    def narrow_road_map(self) -> RoadMap:
-        """The roads of a disc that is narrower by what the noise may have added."""
-        return RoadMap(self.bounds, max(self.radius - 2.0 * self.noise, 0.5 * self.radius), self.pieces)
+    def sure_road_map(self) -> RoadMap:
+        """The roads of a disc narrower by what the noise may have added, without what is only supposed."""
+        narrower = max(self.radius - 2.0 * self.noise, 0.5 * self.radius)
+        return RoadMap(self.bounds, narrower, self.pieces[self.rows[:, KIND] != SUPPOSED])
 
 
 def require_finite(*arrays: np.ndarray) -> None:

@@ -5,14 +5,14 @@ import math
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.navigation.piece_grid import PieceGrid, clearance, leaves
-from gaitwright.navigation.tolerances import LINK, NODE, TOUCH
+from gaitwright.navigation.piece_grid import PieceGrid, cell_of, clearance, leaves
+from gaitwright.navigation.tolerances import HALF_STEP, LINK, NODE
 from gaitwright.numerics.compiled import kernel
 
-RINGS = 8
-"""Places to step to lie on so many rings, a quarter of the radius apart."""
-DIRECTIONS = 16
-"""So many on a ring."""
+STEPS = (0.0625, 0.125, 0.25, 0.5, 1.0, 2.0)
+"""How far it may step aside, in radii: the first step that gets it clear counts."""
+DIRECTIONS = 12
+"""In so many directions."""
 
 
 def sources(
@@ -20,8 +20,9 @@ def sources(
 ) -> Float[np.ndarray, "k 3"]:
     """Places to set out from: x, y [m] and what it costs to come there [m]; the first is the start.
 
-    There are others only where the start is too near to something: places around it that a disc may stand on,
-    and that it comes to without coming nearer to anything. What is nearer than `ignored` [m] is not there.
+    There are others only where the start is too near to something, or too near to a corner for the polygon on
+    which paths turn around it: clear places aside, to which it comes without coming nearer to anything. What
+    is nearer than `ignored` [m] is not there.
     """
     return np.array(places(grid, *start, radius, ignored)).reshape(-1, 3)
 
@@ -29,14 +30,41 @@ def sources(
 @kernel
 def places(grid, x, y, radius, ignored):
     found = [(x, y, 0.0)]
-    if clearance(grid, x, y, radius) >= radius - TOUCH:
+    clear = (radius + NODE) / math.cos(HALF_STEP)
+    if not is_close(grid, x, y, radius - LINK, clear - 1e-9):
         return found
-    for ring in range(1, RINGS + 1):
-        away = 0.25 * ring * radius
-        for k in range(DIRECTIONS):
-            angle = 2.0 * math.pi * k / DIRECTIONS
-            bx, by = x + away * math.cos(angle), y + away * math.sin(angle)
-            is_free = clearance(grid, bx, by, radius + NODE) >= radius + NODE
-            if is_free and leaves(grid, x, y, bx, by, radius - LINK, ignored):
-                found.append((bx, by, away))
+    for k in range(DIRECTIONS):
+        angle = 2.0 * math.pi * k / DIRECTIONS
+        for step in STEPS:
+            bx, by = x + step * radius * math.cos(angle), y + step * radius * math.sin(angle)
+            is_clear = not is_close(grid, bx, by, radius + NODE, clear)
+            if is_clear and leaves(grid, x, y, bx, by, radius - LINK, ignored):
+                found.append((bx, by, step * radius))
+                break
     return found
+
+
+@kernel
+def is_close(grid, x, y, to_side, to_end):
+    """Whether a place is nearer to a piece's side or to its end than these [m]."""
+    if clearance(grid, x, y, to_end) < to_side:
+        return True
+    k = cell_of(grid.place, grid.size, x, y)
+    for n in range(grid.begin[k], grid.begin[k + 1]):
+        piece = grid.pieces[grid.items[n]]
+        near0, near1 = math.hypot(x - piece[0], y - piece[1]), math.hypot(x - piece[2], y - piece[3])
+        if min(near0, near1) < to_end:
+            return True
+    return False
+
+
+@kernel
+def pulled(grid, path, room, ignored):
+    """A path without the steps aside that a straight line from its beginning leaves out."""
+    first = 1
+    while first + 1 < len(path):
+        x, y = path[first + 1, 0], path[first + 1, 1]
+        if not leaves(grid, path[0, 0], path[0, 1], x, y, room, ignored):
+            break
+        first += 1
+    return np.concatenate((path[:1], path[first:]))

@@ -1,7 +1,7 @@
 """Seen pieces of edges as rows, and how pieces of one line become one.
 
-A row is x0, y0, x1, y1 [m], whether each end is a corner (1 or 0), in how many looks it was seen, whether it
-was felt. No polygon is ever made of partial sights: obstacles that touch, overlap, cross themselves or have
+A row is x0, y0, x1, y1 [m], whether each end is a corner (1 or 0), in how many looks it was seen, and what
+kind it is. No polygon is ever made of partial sights: obstacles that touch, overlap, cross themselves or have
 no area need no case of their own.
 """
 
@@ -15,26 +15,28 @@ from gaitwright.numerics.compiled import kernel
 WIDTH = 8
 """Numbers of a row."""
 CORNERS = slice(4, 6)
-LOOKS, FELT = 6, 7
+LOOKS, KIND = 6, 7
 """Columns."""
+SEEN, FELT, SUPPOSED = 0.0, 1.0, 2.0
+"""Kinds: seen; felt, which no look unlearns; supposed to go on beside what was felt, which proves nothing."""
 OF_LINE = 1e-4
 """A piece is of another's line when its ends are within this of it [m], and 2.5 times the noise."""
 OF_GAP = 1e-3
 """Pieces of one line join across this gap [m], and 2.5 times the noise: no robot goes through there."""
 MOST_LOOKS = 20.0
 """So much weight has what was seen before, at most: an outline may shift."""
-POINT = 1e-6
+POINT = 2e-5
 """An obstacle without length gets this one [m]: then it has a direction."""
 
-Rows = Float[np.ndarray, "n 8"]
+Rows = Float[np.ndarray, "_ 8"]
 
 
 def rows_of(
-    pieces: Float[np.ndarray, "n 4"], corners: Bool[np.ndarray, "n 2"] | bool, felt: bool = False
+    pieces: Float[np.ndarray, "n 4"], corners: Bool[np.ndarray, "n 2"] | bool, kind: float = SEEN
 ) -> Rows:
     """Pieces as rows that were seen once."""
     rows = np.ones((len(pieces), WIDTH))
-    rows[:, :4], rows[:, CORNERS], rows[:, FELT] = pieces, corners, felt
+    rows[:, :4], rows[:, CORNERS], rows[:, KIND] = pieces, corners, kind
     points = np.hypot(rows[:, 2] - rows[:, 0], rows[:, 3] - rows[:, 1]) < POINT
     rows[points, 2] = rows[points, 0] + POINT
     return rows
@@ -72,7 +74,7 @@ def joined_all(old, new, line, gap):
 def belongs(a, b, line, gap):
     """Whether two pieces are of one line, and overlap or touch."""
     if a[7] != b[7]:
-        return False  # what was felt is not unlearned by looks
+        return False
     if (
         max(a[0], a[2]) + gap < min(b[0], b[2])
         or max(b[0], b[2]) + gap < min(a[0], a[2])

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gaitwright.navigation.lazy_search import FULL, NONE, search
-from gaitwright.navigation.own_place import sources
+from gaitwright.navigation.own_place import pulled, sources
 from gaitwright.navigation.piece_grid import clearance
 from gaitwright.navigation.raster import Raster, is_known
 from gaitwright.navigation.roads import RoadMap
@@ -72,19 +72,22 @@ def shortest(
 
     What is deep within the disc where the robot stands is not there, where there is no way otherwise.
     """
-    length, path = NONE, np.empty((0, 2))
-    deep = DEEP * road_map.radius
-    is_deep = clearance(road_map.roads.grid, *start, deep) < deep
+    ignored, length, path = 0.0, NONE, np.empty((0, 2))
+    grid, deep = road_map.roads.grid, DEEP * road_map.radius
+    is_deep = clearance(grid, *start, deep) < deep
     for ignored in (0.0, deep) if is_deep else (0.0,):
-        begin = sources(road_map.roads.grid, start, road_map.radius, ignored)
+        begin = sources(grid, start, road_map.radius, ignored)
         length, path = search(road_map.roads, begin, ignored, goal, most, raster.place, cells)
         while length == FULL:
             road_map.widen()
             length, path = search(road_map.roads, begin, ignored, goal, most, raster.place, cells)
         if length != NONE:
             break
-    if len(path) and tuple(path[0]) != start:  # it set out from a place beside the start
+    if len(path) and tuple(path[0]) != start:  # it set out from a place aside
         path = np.vstack([start, path])
+        if not cells.size:
+            path = pulled(grid, path, road_map.radius - LINK, ignored)
+            length = float(np.hypot(*np.diff(path, axis=0).T).sum())
     return length, path
 
 

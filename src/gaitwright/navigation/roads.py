@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from gaitwright.navigation.piece_grid import PieceGrid, is_free, piece_grid
-from gaitwright.navigation.tolerances import LINK, NODE
+from gaitwright.navigation.tolerances import LINK
 from gaitwright.navigation.turning_nodes import TurningNodes, turning_nodes
 from gaitwright.numerics.compiled import kernel
 
@@ -43,7 +43,7 @@ class RoadMap:
 
     def __post_init__(self) -> None:
         fenced = np.concatenate([self.pieces, fence(self.bounds)])
-        grid = piece_grid(fenced, self.bounds, self.radius + 10.0 * NODE)
+        grid = piece_grid(fenced, self.bounds, 1.1 * self.radius)
         nodes = turning_nodes(grid, self.bounds, self.radius)
         states = 2 * len(nodes.lean)
         found = np.full((states, 2), -1, dtype=np.int64)

@@ -15,7 +15,7 @@ from gaitwright.navigation.piece_grid import PieceGrid, clearance
 from gaitwright.navigation.tolerances import HALF_STEP, LEAN, NODE
 from gaitwright.numerics.compiled import kernel
 
-MEET = 1e-5
+MEET = 1e-6
 """Ends nearer than this are one end [m]; where two are taken for apart there are more nodes, none wrong."""
 
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.navigation.piece_rows import Rows
+from gaitwright.navigation.piece_rows import FELT, KIND, Rows
 from gaitwright.numerics.compiled import kernel
 
 INSIDE = 0.02
@@ -27,7 +27,7 @@ def unlearned(rows: Rows, free: Float[np.ndarray, "m 2"], noise: float) -> Rows:
             np.minimum(rows[:, 0], rows[:, 2]) < free[:, 0].max() - margin,
             np.maximum(rows[:, 1], rows[:, 3]) > free[:, 1].min() + margin,
             np.minimum(rows[:, 1], rows[:, 3]) < free[:, 1].max() - margin,
-            rows[:, 7] == 0.0,
+            rows[:, KIND] != FELT,
         ],
         axis=0,
     )
