@@ -135,7 +135,8 @@ def walk(edges, learned: LearnedMap, start, goal, view=ALL_ROUND, reach=3.0, ste
             if free < min(step, far) - 1e-9:
                 trip.contacts += 1
                 touched = nearest_on(edges, here + leg / far * 1e-3)
-                trip.learned = trip.learned.felt(touched, tuple(np.array(touched) - here))
+                direction = math.atan2(touched[1] - here[1], touched[0] - here[0])
+                trip.learned = trip.learned.felt((float(here[0]), float(here[1])), direction)
                 path = ()
                 continue
         if math.dist(here, target) < 1e-9:

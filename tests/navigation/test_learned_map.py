@@ -246,7 +246,7 @@ def test_only_what_lies_in_seen_ground_is_unlearned() -> None:
 
 
 def test_what_was_felt_stays_until_it_is_walked_through() -> None:
-    learned = empty().felt((3.0, 3.0), (2.0, 0.0))
+    learned = empty().felt((3.0 - RADIUS, 3.0), 0.0)
     assert learned.is_cut([(2.5, 3.0), (3.5, 3.0)]) and not learned.is_cut([(3.5, 2.0), (3.5, 4.0)])
     assert learned.is_cut([(2.5, 3.12), (3.5, 3.12)])
     learned = learned.seen(sight(free=[(2.0, 2.0), (4.0, 2.0), (4.0, 4.0), (2.0, 4.0)]))
@@ -271,7 +271,7 @@ def test_a_start_too_near_to_something_is_left(away: float) -> None:
 def test_what_is_only_supposed_shuts_no_way() -> None:
     """A door as wide as the robot and a bit: felt at its post, it is not said to be shut."""
     world = [box_at(3.0, 3.0 + side * (0.2 + 5.0), 0.1, 10.0) for side in (1.0, -1.0)]
-    learned = LearnedMap.of_polygons(BOUNDS, RADIUS, world).felt((2.95, 3.2), (1.0, 0.0))
+    learned = LearnedMap.of_polygons(BOUNDS, RADIUS, world).felt((2.95 - RADIUS, 3.2), 0.0)
     assert (learned.rows[:, KIND] == FELT).sum() == 1
     assert learned.road_map.roads.nodes.lean.size != learned.sure_road_map.roads.nodes.lean.size
     assert learned.way(START, GOAL) is not None
@@ -305,7 +305,7 @@ def test_what_makes_no_sense_is_said() -> None:
     with pytest.raises(WrongUse):
         empty().seen(sight([(1.0, 2.0, math.inf, 3.0)]))
     with pytest.raises(WrongUse):
-        empty().felt(START, (0.0, 0.0))
+        empty().felt(START, math.nan)
     with pytest.raises(WrongUse):
         empty().joined(LearnedMap.of((0.0, 0.0, 1.0, 1.0), RADIUS))
 

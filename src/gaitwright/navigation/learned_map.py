@@ -20,9 +20,11 @@ from gaitwright.navigation.planning import Point, Way, best_way
 from gaitwright.navigation.raster import Raster, blank, with_sight, with_way
 from gaitwright.navigation.roads import Bounds, RoadMap, fence
 from gaitwright.navigation.sight import Sight
-from gaitwright.navigation.tolerances import CHECK, DEEP
+from gaitwright.navigation.tolerances import CHECK, DEEP, TOUCH
 from gaitwright.navigation.unlearning import unlearned
 
+Path = Sequence[Point] | Float[np.ndarray, "n 2"]
+"""Points of a path [m]."""
 STRATEGIES = ("optimistic", "thesis")
 """How a way is chosen where the map is blank."""
 TOUCHED, BESIDE = 0.01, 0.15
@@ -80,22 +82,20 @@ class LearnedMap:
         rows = joined_rows(rows, rows_of(sight.pieces, sight.corners), self.noise)
         return replace(self, rows=rows, raster=with_sight(self.raster, sight.free))
 
-    def felt(self, place: Point, direction: Point) -> "LearnedMap":
-        """With a contact at `place` [m] (the point that was touched), made while moving along `direction`:
-        there is something across it. No look unlearns it, only a trip through it; but that it goes on to both
+    def felt(self, place: Point, direction: float) -> "LearnedMap":
+        """With a contact of a disc that stands at `place` [m], on its rim in a world direction [rad]: there
+        is something across it. No look unlearns it, only a trip through it; but that it goes on to both
         sides is only supposed."""
-        require_finite(np.array([*place, *direction]))
-        size = math.hypot(*direction)
-        if size == 0.0:
-            raise WrongUse("a contact needs a direction in which it was made")
-        across = np.array([-direction[1], direction[0]]) / size
+        require_finite(np.array([*place, direction]))
+        ahead = np.array([math.cos(direction), math.sin(direction)])
+        across, at = np.array([-ahead[1], ahead[0]]), np.array(place) + (self.radius - TOUCH) * ahead
         rows = self.rows
         for half, kind in ((TOUCHED, FELT), (BESIDE, SUPPOSED)):
-            piece = np.concatenate([place - half * across, place + half * across])[None]
+            piece = np.concatenate([at - half * across, at + half * across])[None]
             rows = joined_rows(rows, rows_of(piece, False, kind), self.noise)
         return replace(self, rows=rows)
 
-    def walked(self, way: Sequence[Point]) -> "LearnedMap":
+    def walked(self, way: Path) -> "LearnedMap":
         """With a trip that was made: its ground is free, so nothing lies deep within it."""
         points = [(float(x), float(y)) for x, y in way]
         require_finite(np.array(points))
@@ -130,7 +130,7 @@ class LearnedMap:
             return best_way(self.sure_road_map, self.raster, start, goal)
         return way
 
-    def is_cut(self, path: Sequence[Point]) -> bool:
+    def is_cut(self, path: Path) -> bool:
         """Whether what is known now comes within r of a path [m], and nearer than to its beginning, where the
         robot stands."""
         room = self.radius - 2.0 * self.noise - CHECK

@@ -12,7 +12,9 @@ from gaitwright.numerics.compiled import kernel
 Pieces = Float[np.ndarray, "n _"]
 
 
-def is_path_cut(pieces: Pieces, path: Sequence[tuple[float, float]], room: float) -> bool:
+def is_path_cut(
+    pieces: Pieces, path: Sequence[tuple[float, float]] | Float[np.ndarray, "m 2"], room: float
+) -> bool:
     """Whether a piece comes nearer than `room` [m] to a path, and nearer than to its beginning."""
     return bool(is_cut(pieces, np.array(path, dtype=float).reshape(-1, 2), room))
 
