@@ -1,0 +1,101 @@
+"""A ring of walls around a place: shut, or with one gap as wide as the disc, more or less by millimetres.
+
+Where such a gap stands on the straight line to the goal no corner has to be known; so it opens to another side, and
+the place in the ring is not in its axis.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from shapely import Polygon
+from shapely.affinity import rotate, translate
+
+from gaitwright.bench.unknown.families import JOINTS, wall
+from gaitwright.bench.unknown.world import RADIUS, Point
+
+NARROWEST, WIDEST = -0.005, 0.015
+"""Of a gap's width, less the disc's [m]."""
+UNDECIDED = (-0.0012, 0.0002)
+"""No gap is as wide as this [m]: a disc that touches gives half a millimetre on either side."""
+KINDS = ("ends", "deep", "tips", "skew")
+"""Gaps between the ends of two walls, between long ends, between two tips, between slanting ends."""
+MARGIN = 0.35
+"""From the ring's walls to the place in it, at least [m]."""
+
+
+@dataclass(frozen=True)
+class Pocket:
+    """A ring of walls."""
+
+    walls: tuple[Polygon, ...]
+    room: Polygon
+    """What must be free of other obstacles, so that nothing but the gap decides."""
+    place: Point
+    """The place in it."""
+    mouth: Point | None
+    """Middle of the gap."""
+
+
+def pocket(rng: np.random.Generator, middle: Point, outward: float, over: float | None) -> Pocket:
+    """A ring around `middle` [m], shut, or with a gap `over` wider than the disc [m] on the side `outward` [rad]."""
+    sides, apothem = int(rng.integers(4, 7)), rng.uniform(1.1, 1.7)
+    thick, joint = rng.uniform(0.1, 0.25), rng.choice(JOINTS)
+    half = apothem * math.tan(math.pi / sides) + thick / 2.0
+    walls: list[Polygon] = []
+    off = 0.0
+    for side in range(sides):
+        if side == 0 and over is not None:
+            off = rng.uniform(0.25, 0.6) * (half - 0.35) * rng.choice((-1.0, 1.0))
+            parts = with_gap(rng, (-half, half), off, thick, over)
+        else:
+            parts = wall(True, 0.0, (-half + thick / 2.0, half - thick / 2.0), thick, [], joint)
+        turn = outward + 2.0 * math.pi * side / sides
+        walls += [put(part, apothem, turn, middle) for part in parts]
+    solid = shapely.union_all(walls)
+    inside = max(shapely.get_parts(shapely.Polygon(solid.convex_hull).difference(solid)), key=lambda p: p.area)
+    slid = -math.copysign(0.4 * apothem * rng.random(), off)
+    place = shapely.Point(middle[0] + 0.0, middle[1])
+    moved = translate(place, -slid * math.sin(outward), slid * math.cos(outward))
+    place = moved if inside.buffer(-MARGIN).contains(moved) else place
+    mouth = put(shapely.Point(off, 0.0), apothem, outward, middle) if over is not None else None
+    room = inside if mouth is None else shapely.union_all([inside, mouth.buffer(1.4), solid]).convex_hull
+    return Pocket(tuple(walls), room, (place.x, place.y), (mouth.x, mouth.y) if mouth else None)
+
+
+def put(shape: shapely.Geometry, apothem: float, turn: float, middle: Point) -> shapely.Geometry:
+    """A shape along x, put as a side of the ring: its y points outwards."""
+    return translate(
+        rotate(translate(shape, 0.0, apothem), math.degrees(turn) - 90.0, (0.0, 0.0)), middle[0], middle[1]
+    )
+
+
+def with_gap(
+    rng: np.random.Generator, ends: tuple[float, float], middle: float, thick: float, over: float
+) -> list[Polygon]:
+    """Two walls along x, from end to end, with a gap between them `over` wider than the disc [m]."""
+    half = RADIUS + over / 2.0
+    kind = KINDS[int(rng.integers(len(KINDS)))]
+    if kind == "deep":
+        thick = rng.uniform(0.5, 1.0)
+    y = thick / 2.0
+    left, right = middle - half, middle + half
+    if kind == "tips":
+        a = [(ends[0], -y), (left - y, -y), (left, 0.0), (left - y, y), (ends[0], y)]
+        b = [(ends[1], -y), (right + y, -y), (right, 0.0), (right + y, y), (ends[1], y)]
+    else:
+        lean = math.radians(rng.uniform(10.0, 35.0)) * rng.choice((-1.0, 1.0)) if kind == "skew" else 0.0
+        wide, slant = half / math.cos(lean), y * math.tan(lean)
+        left, right = middle - wide, middle + wide
+        a = [(ends[0], -y), (left - slant, -y), (left + slant, y), (ends[0], y)]
+        b = [(ends[1], -y), (right - slant, -y), (right + slant, y), (ends[1], y)]
+    return [shapely.Polygon(a), shapely.Polygon(b)]
+
+
+def gap_width(rng: np.random.Generator) -> float:
+    """A gap's width, less the disc's [m]."""
+    while True:
+        over = float(rng.uniform(NARROWEST, WIDEST))
+        if not UNDECIDED[0] < over < UNDECIDED[1]:
+            return over
