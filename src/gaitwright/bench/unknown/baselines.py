@@ -1,6 +1,8 @@
-"""Planners to compare with: what is unknown is free, and the way is planned anew where it is met by something.
+"""Planners to compare with: what is unknown is free, and the way is planned anew where it is met by
+something.
 
-All know the same lattice. They differ in how they search it, so in how long their ways and their searches are.
+All know the same lattice. They differ in how they search it, so in how long their ways and their searches
+are.
 """
 
 from dataclasses import dataclass, field, replace
@@ -114,7 +116,12 @@ class ThetaStar(PulledAStar):
         (starts, from_start), (ends, to_goal) = self.lattice.links(start), self.lattice.links(goal)
         links = (starts, from_start / CELL, ends, to_goal / CELL, self.lattice.bounds[:2])
         points, expanded = theta_star(
-            self.lattice.closed, self.lattice.pieces, self.lattice.radius, self.cells(start), self.cells(goal), links
+            self.lattice.closed,
+            self.lattice.pieces,
+            self.lattice.radius,
+            self.cells(start),
+            self.cells(goal),
+            links,
         )
         if not len(points):
             return None

@@ -8,7 +8,8 @@ from gaitwright.numerics.compiled import kernel
 
 @kernel
 def advance(edges, x, y, toward, most, room):
-    """How far a point gets in a direction [rad] before it is nearer than `room` to an edge [m], at most `most`.
+    """How far a point gets in a direction [rad] before it is nearer than `room` to an edge [m], at most
+    `most`.
 
     A point that is nearer already (by rounding) goes on where that takes it no nearer.
     """

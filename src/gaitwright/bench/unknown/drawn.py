@@ -18,6 +18,8 @@ KINDS = ("gap", "walled", "open", "open", "walled", "open", "gap", "open", "wall
 """Of twenty worlds of a family: 3 with a gap that decides, 4 walled in."""
 PLACES = 60
 """Places for start and goal that are tried in one set of obstacles."""
+START_SHUT = 0.25
+"""In such a share of the rings stands the start."""
 SIDEWAYS = 1.0
 """A gap is so far from the straight line between start and goal [m]."""
 HAIR = 1e-4
@@ -80,8 +82,10 @@ def shut_in(
     ring = pocket(rng, (middle[0], middle[1]), outward, over)
     room = ring.room if over is not None else shapely.Point(ring.place).buffer(FREE)
     clear = [one for one in obstacles if not shapely.intersects(one, room)]
-    ends = ((other[0], other[1]), ring.place)
-    found = World(*about, (*clear, *ring.walls), *(ends[::-1] if rng.random() < 0.25 else ends), over)
+    start, goal = (other[0], other[1]), ring.place
+    if rng.random() < START_SHUT:
+        start, goal = goal, start
+    found = World(*about, (*clear, *ring.walls), start, goal, over)
     return found if is_as_wanted(found, ring.mouth) else None
 
 

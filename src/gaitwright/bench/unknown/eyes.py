@@ -1,7 +1,7 @@
 """World + eye → Sight: exactly what is in view, what is hidden, and where each seen piece ends.
 
-Between two directions in which an edge begins, ends, or leaves the range, one edge is the nearest: it is asked for
-once, halfway. Edges meet in their ends only (`World.edges`), so no other direction matters.
+Between two directions in which an edge begins, ends, or leaves the range, one edge is the nearest: it is
+asked for once, halfway. Edges meet in their ends only (`World.edges`), so no other direction matters.
 """
 
 import math
@@ -15,7 +15,7 @@ from gaitwright.navigation.sight import Sight
 from gaitwright.numerics.compiled import kernel
 
 SAME_ANGLE = 1e-7
-"""No camera tells directions apart that are nearer than this [rad]: nothing is seen through a slit of 1 nm."""
+"""No camera tells nearer directions apart [rad]: nothing is seen through a slit of 1 nm."""
 SAME_PLACE = 1e-6
 """Ends nearer to each other than this are one [m]."""
 ARC = 0.1
@@ -86,7 +86,7 @@ def turned(angle):
 
 @kernel
 def directions(near, heading, half, reach):
-    """Directions between which one edge is the nearest, ordered [rad]; relative to the heading, within view."""
+    """Directions between which one edge is the nearest, ordered [rad]; from the heading, within view."""
     found = np.empty(4 * len(near) + 2)
     found[0], found[1] = -half, half
     n = 2

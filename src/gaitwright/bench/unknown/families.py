@@ -1,7 +1,7 @@
 """Five families of obstacles, drawn by lot: forest, rooms with doors, bug traps, mazes, streets.
 
-What is built of walls is turned by any angle in every second world, and cut off at the square's edge. Its walls
-are boxes one after another: they touch, overlap by 1 nm or by a hand, or stand 1 nm apart.
+What is built of walls is turned by any angle in every second world, and cut off at the square's edge. Its
+walls are boxes one after another: they touch, overlap by 1 nm or by a hand, or stand 1 nm apart.
 """
 
 import math
@@ -95,7 +95,9 @@ def streets(rng: np.random.Generator) -> list[Polygon]:
         if rng.random() < 0.25:
             at = start + rng.uniform(0.35, 0.65) * pitch
             across = (at - 0.1, line - width / 2.0 - 0.02, at + 0.1, line + width / 2.0 + 0.02)
-            blocks.append(shapely.box(*(across if horizontal else (across[1], across[0], across[3], across[2]))))
+            blocks.append(
+                shapely.box(*(across if horizontal else (across[1], across[0], across[3], across[2])))
+            )
     return turned(rng, blocks)
 
 
@@ -110,7 +112,7 @@ FAMILIES: dict[str, Family] = {
 
 # --- parts -----------------------------------------------------------------------------------------
 def grid_lines(pitch: float, cells: int | None = None) -> Iterator[tuple[bool, float, float]]:
-    """Of every wall between two cells of a square grid: whether it is horizontal, its line, where it begins."""
+    """Of every wall between two cells of a grid: whether it is horizontal, its line, where it begins."""
     half = (cells or 2 * math.ceil(REACH / pitch)) // 2
     for line in range(-half, half + 1):
         for start in range(-half, half):
@@ -131,7 +133,7 @@ def wall(
     openings: list[tuple[float, float]],
     joint: float,
 ) -> list[Polygon]:
-    """Boxes one after another along a line, each about a metre long; corners are overlapped by half the thickness."""
+    """Boxes of about a metre along a line; at its ends they go on by half the thickness."""
     edges = [ends[0] - thick / 2.0, *(x for opening in openings for x in opening), ends[1] + thick / 2.0]
     boxes = []
     for low, high in zip(edges[::2], edges[1::2], strict=True):

@@ -1,7 +1,7 @@
 """A binary heap of numbered nodes with two keys each, which knows where each node stands; compiled.
 
-`heap` (nodes in heap order), `place` (of each node in it, or −1), `first`, `second` (keys by node). The number of
-nodes in it is handed in and back.
+`heap` (nodes in heap order), `place` (of each node in it, or −1), `first`, `second` (keys by node). The
+number of nodes in it is handed in and back.
 """
 
 from gaitwright.numerics.compiled import kernel

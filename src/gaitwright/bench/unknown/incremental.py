@@ -1,7 +1,7 @@
 """D* Lite: a search from the goal that is mended, not made anew, when links close; compiled.
 
-Koenig and Likhachev, AAAI 2002, the optimised version (figure 4), over the links of a lattice. The goal is no node:
-`seed` is how far it is from the nodes linked with it, so every rhs is a least over neighbours and that.
+Koenig and Likhachev, AAAI 2002, the optimised version (figure 4), over the links of a lattice. The goal is no
+node: `seed` is how far it is from the nodes linked with it, so every rhs is a least over neighbours and that.
 """
 
 import math
@@ -110,13 +110,15 @@ def is_settled(g, rhs, heap, first, second, count, node, here, km, columns):
     """Whether no node in the heap can make this one's length another."""
     one, two = key(g, rhs, node, here, km, columns)
     top = heap[0]
-    is_later = count == 0 or not (first[top] < one - EQUAL or (first[top] < one + EQUAL and second[top] < two))
+    is_later = count == 0 or not (
+        first[top] < one - EQUAL or (first[top] < one + EQUAL and second[top] < two)
+    )
     return is_later and (rhs[node] <= g[node] + EQUAL)
 
 
 @kernel
 def settle(closed, seed, g, rhs, heap, place, first, second, count, nodes, here, km):
-    """ComputeShortestPath for each of some nodes; the number of nodes in the heap then, and how many expanded."""
+    """ComputeShortestPath for each of some nodes; how many nodes are in the heap then, how many expanded."""
     columns = closed.shape[1]
     expanded = 0
     for start in nodes:

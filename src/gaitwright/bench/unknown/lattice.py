@@ -1,8 +1,8 @@
 """What planners on a grid know: seen pieces, and the links of a grid of 0.1 m that keep clear of them.
 
-A link between two of eight neighbours is closed where a straight walk along it would come nearer than the disc's
-radius to a piece, exactly: no cell is closed for a corner in it, and no open link ever touches. What was never
-seen is open. This is the best that a grid can do.
+A link between two of eight neighbours is closed where a straight walk along it would come nearer than the
+disc's radius to a piece, exactly: no cell is closed for a corner in it, and no open link ever touches. What
+was never seen is open. This is the best that a grid can do.
 """
 
 import math
@@ -11,7 +11,13 @@ from typing import NamedTuple, Self
 import numpy as np
 from jaxtyping import Float, UInt8
 
-from gaitwright.bench.unknown.segments import clearance, is_clear, is_way_clear, piece_to_piece, point_to_piece
+from gaitwright.bench.unknown.segments import (
+    clearance,
+    is_clear,
+    is_way_clear,
+    piece_to_piece,
+    point_to_piece,
+)
 from gaitwright.numerics.compiled import kernel
 
 CELL = 0.1
@@ -25,7 +31,7 @@ IN_LINE = 1e-6
 HAIR = 1e-7
 """A robot that touches may leave with the room that it has, less this [m]."""
 SOFT = 6e-4
-"""A way is cut where something is nearer than the radius less this [m]: a disc that touches gives a little less."""
+"""A way is cut where something is nearer than the radius less this [m]: a disc that touches gives less."""
 LINKED = 0.15
 """A place is linked to nodes within this [m], …"""
 FARTHER = 0.3
@@ -46,7 +52,7 @@ class Lattice(NamedTuple):
     def of(cls, bounds: tuple[float, float, float, float], radius: float) -> Self:
         """Nothing is known but the bounds."""
         x_min, y_min, x_max, y_max = bounds
-        columns, rows = (int(round(long / CELL)) + 1 for long in (x_max - x_min, y_max - y_min))
+        columns, rows = (round(long / CELL) + 1 for long in (x_max - x_min, y_max - y_min))
         closed = np.zeros((rows, columns), np.uint8)
         for k in range(8):
             mask = np.uint8(1 << k)
@@ -72,7 +78,9 @@ class Lattice(NamedTuple):
     def links(self, place: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
         """Nodes (flat numbers) that a straight walk from a place reaches, and how far they are [m]."""
         for reach in (LINKED, FARTHER):
-            found = links_of(self.closed, self.pieces, *place, self.bounds[0], self.bounds[1], self.radius, reach)
+            found = links_of(
+                self.closed, self.pieces, *place, self.bounds[0], self.bounds[1], self.radius, reach
+            )
             if len(found[0]):
                 break
         return found

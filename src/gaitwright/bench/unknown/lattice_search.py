@@ -1,7 +1,7 @@
 """Shortest ways on a lattice: A* over eight neighbours, and Theta*, whose ways bend anywhere; compiled.
 
-A*: Hart, Nilsson and Raphael 1968. Theta*: Nash, Daniel, Koenig and Felner, AAAI 2007 (basic Theta*), with lines
-of sight that are exact walks among the known pieces.
+A*: Hart, Nilsson and Raphael 1968. Theta*: Nash, Daniel, Koenig and Felner, AAAI 2007 (basic Theta*), with
+lines of sight that are exact walks among the known pieces.
 """
 
 import math
@@ -17,8 +17,8 @@ DIAGONAL = math.sqrt(2.0)
 STRAIGHT = 1e-9
 """Ways that differ by less are as long as each other [cells]."""
 SLACK = 0.15
-"""The last link, from a node to the goal, is straight where the estimate goes by eight directions: it may be off
-by less than this [cells]."""
+"""The last link, from a node to the goal, is straight where the estimate goes by eight directions: it may be
+off by less than this [cells]."""
 TOWARD_GOAL = 1e-6
 """Of two nodes that promise the same the one nearer to the goal is looked at first."""
 
@@ -34,8 +34,8 @@ def octile(dx, dy):
 def a_star(closed, starts, from_start, ends, to_goal, goal_x, goal_y):
     """Lengths from the start [cells] of the nodes looked at, the last node before the goal or −1, how many.
 
-    `starts`, `ends`: nodes linked with start and goal; `from_start`, `to_goal`: how far they are [cells]; the goal
-    in cells.
+    `starts`, `ends`: nodes linked with start and goal; `from_start`, `to_goal`: how far they are [cells]; the
+    goal in cells.
     """
     rows, columns = closed.shape
     size = rows * columns
@@ -99,7 +99,8 @@ def descent(closed, g, rhs, ends, first):
 def theta_star(closed, pieces, radius, start, goal, links):
     """Way-points [cells] from start to goal (both in cells), or none, and how many nodes were looked at.
 
-    `links`: nodes linked with start and with goal. A node's parent is any node that a straight walk leads from.
+    `links`: nodes linked with start and with goal. A node's parent is any node that a straight walk leads
+    from.
     """
     rows, columns = closed.shape
     size = rows * columns
@@ -150,7 +151,12 @@ def theta_star(closed, pieces, radius, start, goal, links):
 def is_walk(pieces, ax, ay, bx, by, radius, origin):
     """Whether a straight walk leads from one place to another, both in cells."""
     return is_clear(
-        pieces, origin[0] + CELL * ax, origin[1] + CELL * ay, origin[0] + CELL * bx, origin[1] + CELL * by, radius
+        pieces,
+        origin[0] + CELL * ax,
+        origin[1] + CELL * ay,
+        origin[0] + CELL * bx,
+        origin[1] + CELL * by,
+        radius,
     )
 
 

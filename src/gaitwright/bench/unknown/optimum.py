@@ -1,9 +1,9 @@
 """The shortest way of a disc that knows everything, from below and from above.
 
-Around corners a disc's middle goes in arcs. Chords cut through them and tangents go around them: with polygons whose
-corners lie on the arcs a shortest way is too short, with polygons whose edges touch the arcs it is too long, and the
-truth lies between. In each a shortest way leads over convex corners, along lines that touch in both ends, so A*
-over those (Lozano-Pérez and Wesley 1979, tangents only) is exact.
+Around corners a disc's middle goes in arcs. Chords cut through them and tangents go around them: with
+polygons whose corners lie on the arcs a shortest way is too short, with polygons whose edges touch the arcs
+it is too long, and the truth lies between. In each a shortest way leads over convex corners, along lines that
+touch in both ends, so A* over those (Lozano-Pérez and Wesley 1979, tangents only) is exact.
 """
 
 import math
@@ -42,7 +42,7 @@ def optimum(world: World, start: Point | None = None, goal: Point | None = None)
 
 
 def shortest(world: World, radius: float, start: Point, goal: Point) -> float:
-    """Length of the shortest way among obstacles grown to polygons with their corners on arcs of a radius [m]."""
+    """Length of the shortest way [m] among obstacles grown to polygons with corners on arcs of a radius."""
     corners = convex_corners(grown(world, radius, QUARTER))
     ends = np.array([[*start, *start, *start], [*goal, *goal, *goal]])
     return float(search(np.vstack([ends, corners]), edges_of(grown(world, radius - HAIR, QUARTER))))
@@ -84,7 +84,10 @@ def search(nodes, edges):
             away = math.hypot(dx, dy)
             if away == 0.0 or g[here] + away >= g[there]:
                 continue
-            if not (is_touched(nodes, here, dx / away, dy / away) and is_touched(nodes, there, dx / away, dy / away)):
+            if not (
+                is_touched(nodes, here, dx / away, dy / away)
+                and is_touched(nodes, there, dx / away, dy / away)
+            ):
                 continue
             if not is_free(edges, nodes, here, there):
                 continue

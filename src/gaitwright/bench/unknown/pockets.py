@@ -1,16 +1,16 @@
 """A ring of walls around a place: shut, or with one gap as wide as the disc, more or less by millimetres.
 
-Where such a gap stands on the straight line to the goal no corner has to be known; so it opens to another side, and
-the place in the ring is not in its axis.
+Where such a gap stands on the straight line to the goal no corner has to be known; so it opens to another
+side, and the place in the ring is not in its axis.
 """
 
 import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import shapely
 from shapely import Polygon
-from shapely.affinity import rotate, translate
 
 from gaitwright.bench.unknown.families import JOINTS, wall
 from gaitwright.bench.unknown.world import RADIUS, Point
@@ -23,6 +23,8 @@ KINDS = ("ends", "deep", "tips", "skew")
 """Gaps between the ends of two walls, between long ends, between two tips, between slanting ends."""
 MARGIN = 0.35
 """From the ring's walls to the place in it, at least [m]."""
+AROUND = 1.4
+"""Nothing else stands so near to a gap [m]."""
 
 
 @dataclass(frozen=True)
@@ -30,7 +32,7 @@ class Pocket:
     """A ring of walls."""
 
     walls: tuple[Polygon, ...]
-    room: Polygon
+    room: shapely.Geometry
     """What must be free of other obstacles, so that nothing but the gap decides."""
     place: Point
     """The place in it."""
@@ -39,36 +41,39 @@ class Pocket:
 
 
 def pocket(rng: np.random.Generator, middle: Point, outward: float, over: float | None) -> Pocket:
-    """A ring around `middle` [m], shut, or with a gap `over` wider than the disc [m] on the side `outward` [rad]."""
+    """A ring around `middle` [m], shut, or with a gap `over` wider than the disc [m], `outward` [rad]."""
     sides, apothem = int(rng.integers(4, 7)), rng.uniform(1.1, 1.7)
     thick, joint = rng.uniform(0.1, 0.25), rng.choice(JOINTS)
     half = apothem * math.tan(math.pi / sides) + thick / 2.0
+    off = rng.uniform(0.25, 0.6) * (half - 0.35) * rng.choice((-1.0, 1.0))
     walls: list[Polygon] = []
-    off = 0.0
     for side in range(sides):
         if side == 0 and over is not None:
-            off = rng.uniform(0.25, 0.6) * (half - 0.35) * rng.choice((-1.0, 1.0))
             parts = with_gap(rng, (-half, half), off, thick, over)
         else:
             parts = wall(True, 0.0, (-half + thick / 2.0, half - thick / 2.0), thick, [], joint)
         turn = outward + 2.0 * math.pi * side / sides
-        walls += [put(part, apothem, turn, middle) for part in parts]
+        walls += [Polygon(put(one.exterior.coords, apothem, turn, middle)) for one in parts]
     solid = shapely.union_all(walls)
-    inside = max(shapely.get_parts(shapely.Polygon(solid.convex_hull).difference(solid)), key=lambda p: p.area)
-    slid = -math.copysign(0.4 * apothem * rng.random(), off)
-    place = shapely.Point(middle[0] + 0.0, middle[1])
-    moved = translate(place, -slid * math.sin(outward), slid * math.cos(outward))
-    place = moved if inside.buffer(-MARGIN).contains(moved) else place
-    mouth = put(shapely.Point(off, 0.0), apothem, outward, middle) if over is not None else None
-    room = inside if mouth is None else shapely.union_all([inside, mouth.buffer(1.4), solid]).convex_hull
-    return Pocket(tuple(walls), room, (place.x, place.y), (mouth.x, mouth.y) if mouth else None)
+    hull = Polygon(shapely.get_coordinates(solid.convex_hull))
+    inside = max(shapely.get_parts(hull.difference(solid)), key=lambda part: part.area)
+    aside = -math.copysign(0.4 * apothem * rng.random(), off)
+    (place,) = put([(aside, -apothem)], apothem, outward, middle)
+    if not inside.buffer(-MARGIN).contains(shapely.Point(place)):
+        place = middle
+    if over is None:
+        return Pocket(tuple(walls), hull, place, None)
+    (mouth,) = put([(off, 0.0)], apothem, outward, middle)
+    room = shapely.union_all([hull, shapely.Point(mouth).buffer(AROUND)]).convex_hull
+    return Pocket(tuple(walls), room, place, mouth)
 
 
-def put(shape: shapely.Geometry, apothem: float, turn: float, middle: Point) -> shapely.Geometry:
-    """A shape along x, put as a side of the ring: its y points outwards."""
-    return translate(
-        rotate(translate(shape, 0.0, apothem), math.degrees(turn) - 90.0, (0.0, 0.0)), middle[0], middle[1]
-    )
+def put(points: Iterable[Sequence[float]], apothem: float, turn: float, middle: Point) -> list[Point]:
+    """Points of a wall along x, put as a side of the ring: its y points outwards, in the direction `turn`."""
+    ux, uy = math.cos(turn), math.sin(turn)
+    return [
+        (middle[0] + x * uy + (y + apothem) * ux, middle[1] - x * ux + (y + apothem) * uy) for x, y in points
+    ]
 
 
 def with_gap(

@@ -32,8 +32,10 @@ def piece_to_piece(ax, ay, bx, by, cx, cy, dx, dy):
     if crosses(ax, ay, bx, by, cx, cy, dx, dy):
         return 0.0
     return min(
-        min(point_to_piece(ax, ay, cx, cy, dx, dy), point_to_piece(bx, by, cx, cy, dx, dy)),
-        min(point_to_piece(cx, cy, ax, ay, bx, by), point_to_piece(dx, dy, ax, ay, bx, by)),
+        point_to_piece(ax, ay, cx, cy, dx, dy),
+        point_to_piece(bx, by, cx, cy, dx, dy),
+        point_to_piece(cx, cy, ax, ay, bx, by),
+        point_to_piece(dx, dy, ax, ay, bx, by),
     )
 
 

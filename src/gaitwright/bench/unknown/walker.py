@@ -4,7 +4,6 @@ It never enters an obstacle: what its planner does not know of, it touches.
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from time import perf_counter
 from typing import Protocol, Self, runtime_checkable
@@ -49,7 +48,7 @@ class Way(Protocol):
 
     @property
     def is_walked(self) -> bool:
-        """Whether it leads over ground that was seen to be free, because it is near enough to the shortest."""
+        """Whether it leads over ground that was seen to be free, being near enough to the shortest."""
         ...
 
     @property
@@ -121,9 +120,11 @@ class Trip:
 class Walker:
     """A simulated disc with an eye in front, and what it went through since the last trip began."""
 
-    def __init__(self, world: World, planner: Planner, camera: Camera, blur: int | None = None) -> None:
-        """`blur`: seed of the camera's noise; `None` sees exactly."""
-        self.world, self.planner, self.camera = world, planner, camera
+    def __init__(
+        self, world: World, planner: Planner, camera: Camera, blur: int | None = None, body: float = RADIUS
+    ) -> None:
+        """`blur`: seed of the camera's noise, `None` sees exactly; `body`: radius of the disc [m]."""
+        self.world, self.planner, self.camera, self.body = world, planner, camera, body
         self.rng = None if blur is None else np.random.default_rng(blur)
         self.place = world.start
         self.heading = toward(world.start, world.goal)
@@ -207,7 +208,7 @@ class Walker:
     def stops(self, point: Point | None, metres: float) -> bool:
         """One step ahead, onto `point` where that is its end; whether something was touched."""
         x, y = self.place
-        free = advance(self.world.edges, x, y, self.heading, metres, RADIUS - TOUCH)
+        free = advance(self.world.edges, x, y, self.heading, metres, self.body - TOUCH)
         at = (x + free * math.cos(self.heading), y + free * math.sin(self.heading))
         if free >= metres and point is not None:
             at = point
@@ -243,13 +244,3 @@ class Walker:
 def toward(here: Point, there: Point) -> float:
     """Direction from one place to another [rad]."""
     return math.atan2(there[1] - here[1], there[0] - here[0])
-
-
-def tour(walker: Walker, goals: Sequence[Point]) -> tuple[Trip, ...]:
-    """Trips from goal to goal, the map kept, until one does not arrive."""
-    trips: list[Trip] = []
-    for goal in goals:
-        trips.append(walker.trip(goal))
-        if trips[-1].end != ARRIVED:
-            break
-    return tuple(trips)
