@@ -13,7 +13,7 @@ from jaxtyping import Float
 
 from gaitwright.bench.unknown.incremental import Search
 from gaitwright.bench.unknown.lattice import CELL, Lattice, own_room
-from gaitwright.bench.unknown.lattice_search import a_star, descent, pulled, theta_star
+from gaitwright.bench.unknown.lattice_search import a_star, descent, in_units, pulled, theta_star
 from gaitwright.bench.unknown.world import BOUNDS, RADIUS, Point
 from gaitwright.navigation.sight import Sight
 
@@ -75,11 +75,11 @@ class AStar:
         closed = self.lattice.closed
         (starts, from_start), (ends, to_goal) = self.lattice.links(start), self.lattice.links(goal)
         x, y = self.cells(goal)
-        g, before, expanded, _ = a_star(closed, starts, from_start / CELL, ends, to_goal / CELL, x, y)
+        g, before, expanded, _ = a_star(closed, starts, in_units(from_start), ends, in_units(to_goal), x, y)
         if before < 0:
             return None
         first = np.full(closed.size, np.inf)
-        first[starts] = from_start / CELL
+        first[starts] = in_units(from_start)
         nodes = descent(closed, g, g, first, before)[::-1]
         return along(self.lattice.places(nodes), start, goal, expanded)
 
@@ -151,7 +151,7 @@ class DStarLite(AStar):
         else:
             search.moved(self.lattice, here)
         expanded = search.settle(starts)
-        lengths = search.rhs[starts] + from_start / CELL
+        lengths = search.rhs[starts] + in_units(from_start)
         first = int(np.argmin(lengths))
         if not np.isfinite(lengths[first]):
             return None

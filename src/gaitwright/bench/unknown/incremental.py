@@ -9,12 +9,9 @@ import math
 import numpy as np
 
 from gaitwright.bench.unknown.heap import drop, push
-from gaitwright.bench.unknown.lattice import CELL, GO_X, GO_Y, Lattice
-from gaitwright.bench.unknown.lattice_search import DIAGONAL, octile
+from gaitwright.bench.unknown.lattice import GO_X, GO_Y, Lattice
+from gaitwright.bench.unknown.lattice_search import DIAGONAL, UNIT, in_units, octile
 from gaitwright.numerics.compiled import kernel
-
-EQUAL = 1e-9
-"""Lengths that differ by less are equal [cells]."""
 
 
 class Search:
@@ -60,10 +57,10 @@ class Search:
 
 
 def seeds(lattice: Lattice, goal: tuple[float, float]) -> np.ndarray:
-    """Of every node how far the goal is by a straight link [cells], or infinity."""
+    """Of every node how far the goal is by a straight link [units], or infinity."""
     nodes, away = lattice.links(goal)
     out = np.full(lattice.closed.size, math.inf)
-    out[nodes] = away / CELL
+    out[nodes] = in_units(away)
     return out
 
 
@@ -77,7 +74,7 @@ def key(g, rhs, node, here, km, columns):
 @kernel
 def update(g, rhs, heap, place, first, second, count, node, here, km, columns):
     """Puts a node where it belongs: into the heap if its two lengths differ."""
-    if abs(g[node] - rhs[node]) > EQUAL or math.isinf(g[node]) != math.isinf(rhs[node]):
+    if g[node] != rhs[node]:
         first[node], second[node] = key(g, rhs, node, here, km, columns)
         return push(heap, place, first, second, count, node)
     if place[node] >= 0:
@@ -92,7 +89,7 @@ def looked_ahead(closed, seed, g, node):
     best = seed[node]
     for k in range(8):
         if not closed[node // columns, node % columns] >> k & 1:
-            best = min(best, g[node + GO_Y[k] * columns + GO_X[k]] + (DIAGONAL if k % 2 else 1.0))
+            best = min(best, g[node + GO_Y[k] * columns + GO_X[k]] + (DIAGONAL if k % 2 else UNIT))
     return best
 
 
@@ -106,14 +103,12 @@ def mend(closed, seed, g, rhs, heap, place, first, second, count, nodes, here, k
 
 
 @kernel
-def is_settled(g, rhs, heap, first, second, count, node, here, km, columns):
+def is_settled(g, rhs, heap, first, second, node, here, km, columns):
     """Whether no node in the heap can make this one's length another."""
     one, two = key(g, rhs, node, here, km, columns)
     top = heap[0]
-    is_later = count == 0 or not (
-        first[top] < one - EQUAL or (first[top] < one + EQUAL and second[top] < two)
-    )
-    return is_later and (rhs[node] <= g[node] + EQUAL)
+    is_first = first[top] < one or (first[top] == one and second[top] < two)
+    return not is_first and rhs[node] <= g[node]
 
 
 @kernel
@@ -122,11 +117,11 @@ def settle(closed, seed, g, rhs, heap, place, first, second, count, nodes, here,
     columns = closed.shape[1]
     expanded = 0
     for start in nodes:
-        while count > 0 and not is_settled(g, rhs, heap, first, second, count, start, here, km, columns):
+        while count > 0 and not is_settled(g, rhs, heap, first, second, start, here, km, columns):
             node = heap[0]
-            old, _ = first[node], second[node]
+            old, older = first[node], second[node]
             one, two = key(g, rhs, node, here, km, columns)
-            if old < one - EQUAL:
+            if old < one or (old == one and older < two):
                 first[node], second[node] = one, two
                 count = push(heap, place, first, second, count, node)
                 continue
@@ -137,7 +132,7 @@ def settle(closed, seed, g, rhs, heap, place, first, second, count, nodes, here,
                 for k in range(8):
                     if not closed[node // columns, node % columns] >> k & 1:
                         to = node + GO_Y[k] * columns + GO_X[k]
-                        rhs[to] = min(rhs[to], g[node] + (DIAGONAL if k % 2 else 1.0))
+                        rhs[to] = min(rhs[to], g[node] + (DIAGONAL if k % 2 else UNIT))
                         count = update(g, rhs, heap, place, first, second, count, to, here, km, columns)
             else:
                 before = g[node]
@@ -146,7 +141,7 @@ def settle(closed, seed, g, rhs, heap, place, first, second, count, nodes, here,
                 for k in range(8):
                     if not closed[node // columns, node % columns] >> k & 1:
                         to = node + GO_Y[k] * columns + GO_X[k]
-                        if abs(rhs[to] - before - (DIAGONAL if k % 2 else 1.0)) <= EQUAL:
+                        if rhs[to] == before + (DIAGONAL if k % 2 else UNIT):
                             rhs[to] = looked_ahead(closed, seed, g, to)
                             count = update(g, rhs, heap, place, first, second, count, to, here, km, columns)
     return count, expanded

@@ -7,35 +7,44 @@ lines of sight that are exact walks among the known pieces.
 import math
 
 import numpy as np
+from jaxtyping import Float
 
 from gaitwright.bench.unknown.heap import drop, push
 from gaitwright.bench.unknown.lattice import CELL, GO_X, GO_Y
 from gaitwright.bench.unknown.segments import is_clear
 from gaitwright.numerics.compiled import kernel
 
-DIAGONAL = math.sqrt(2.0)
+UNIT = 1e6
+"""A cell in units of length: lengths over links are whole numbers of them, so that equal ones are equal."""
+DIAGONAL = 1414214.0
+"""A diagonal link [units]."""
+SLACK = 0.25 * UNIT
+"""The last link, to the goal, is straight, and the estimate goes by eight directions: off by less than this."""
+ROOT = math.sqrt(2.0)
 STRAIGHT = 1e-9
-"""Ways that differ by less are as long as each other [cells]."""
-SLACK = 0.15
-"""The last link, from a node to the goal, is straight where the estimate goes by eight directions: it may be
-off by less than this [cells]."""
+"""Any-angle ways that differ by less are as long as each other [cells]."""
 TOWARD_GOAL = 1e-6
-"""Of two nodes that promise the same the one nearer to the goal is looked at first."""
+"""Of two nodes that promise nearly the same the one nearer to the goal is looked at first."""
+
+
+def in_units(metres: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+    """Lengths as whole numbers [units]."""
+    return np.round(metres / CELL * UNIT)
 
 
 @kernel
 def octile(dx, dy):
-    """Length of the shortest way by eight directions over so many cells."""
+    """Length of the shortest way by eight directions over so many cells [units], rounded down."""
     dx, dy = abs(dx), abs(dy)
-    return max(dx, dy) + (DIAGONAL - 1.0) * min(dx, dy)
+    return math.floor(UNIT * max(dx, dy) + (DIAGONAL - UNIT) * min(dx, dy))
 
 
 @kernel
 def a_star(closed, starts, from_start, ends, to_goal, goal_x, goal_y):
-    """Lengths from the start [cells] of the nodes looked at, the last node before the goal or −1, how many.
+    """Lengths from the start [units] of the nodes looked at, the last node before the goal or −1, how many.
 
-    `starts`, `ends`: nodes linked with start and goal; `from_start`, `to_goal`: how far they are [cells]; the
-    goal in cells.
+    `starts`, `ends`: nodes linked with start and goal; `from_start`, `to_goal`: how far they are [units]; the
+    goal in cells. Last comes the length of the way.
     """
     rows, columns = closed.shape
     size = rows * columns
@@ -49,7 +58,7 @@ def a_star(closed, starts, from_start, ends, to_goal, goal_x, goal_y):
         node = starts[k]
         g[node] = from_start[k]
         h[node] = octile(node % columns - goal_x, node // columns - goal_y)
-        f[node] = g[node] + max(h[node] - SLACK, 0.0) * (1.0 + TOWARD_GOAL)
+        f[node] = g[node] + max(h[node] - SLACK, 0.0)
         count = push(heap, place, f, h, count, node)
     while count > 0 and f[heap[0]] < best:
         node = heap[0]
@@ -62,11 +71,11 @@ def a_star(closed, starts, from_start, ends, to_goal, goal_x, goal_y):
             if closed[node // columns, node % columns] >> k & 1:
                 continue
             to = node + GO_Y[k] * columns + GO_X[k]
-            length = g[node] + (DIAGONAL if k % 2 else 1.0)
-            if not done[to] and length < g[to] - STRAIGHT:
+            length = g[node] + (DIAGONAL if k % 2 else UNIT)
+            if not done[to] and length < g[to]:
                 g[to] = length
                 h[to] = octile(to % columns - goal_x, to // columns - goal_y)
-                f[to] = length + max(h[to] - SLACK, 0.0) * (1.0 + TOWARD_GOAL)
+                f[to] = length + max(h[to] - SLACK, 0.0)
                 count = push(heap, place, f, h, count, to)
     return g, before, expanded, best
 
@@ -80,14 +89,14 @@ def descent(closed, g, rhs, ends, first):
     rows, columns = closed.shape
     nodes = np.empty(rows * columns, np.int64)
     nodes[0], n, way = first, 1, -1
-    while ends[nodes[n - 1]] > rhs[nodes[n - 1]] + STRAIGHT:
+    while ends[nodes[n - 1]] > rhs[nodes[n - 1]] and n < len(nodes):
         node, best, chosen = nodes[n - 1], math.inf, -1
         for k in range(8):
             to = node + GO_Y[k] * columns + GO_X[k]
-            if closed[node // columns, node % columns] >> k & 1 or not abs(g[to] - rhs[to]) <= STRAIGHT:
+            if closed[node // columns, node % columns] >> k & 1 or g[to] != rhs[to]:
                 continue
-            length = g[to] + (DIAGONAL if k % 2 else 1.0)
-            if length < best - STRAIGHT or (k == way and length < best + STRAIGHT):
+            length = g[to] + (DIAGONAL if k % 2 else UNIT)
+            if length < best or (k == way and length == best):
                 best, chosen = length, k
         way = chosen
         nodes[n] = node + GO_Y[way] * columns + GO_X[way]
@@ -136,7 +145,7 @@ def theta_star(closed, pieces, radius, start, goal, links):
                 from_above, ax, ay = g[above], float(above % columns), float(above // columns)
             x, y = float(to % columns), float(to // columns)
             straight = from_above + math.hypot(x - ax, y - ay)
-            came, length = node, g[node] + (DIAGONAL if k % 2 else 1.0)
+            came, length = node, g[node] + (ROOT if k % 2 else 1.0)
             if straight < min(length, g[to]) and is_walk(pieces, ax, ay, x, y, radius, origin):
                 came, length = above, straight
             if length < g[to] - STRAIGHT:
