@@ -49,7 +49,7 @@ def measure(context: Context) -> Iterator[Figure]:
     """Right answers, travel, time and plans of everyone."""
     everyone = tuple(name for name in (LEARNED, *BASELINES) if is_there(name))
     toured(Asked(context.seed, 2, everyone, trips=2))  # compiles, or loads, before workers do so side by side
-    asked = [Asked(context.seed, number, everyone) for number in range(QUICK if context.quick else WORLDS)]
+    asked = [Asked(context.seed, number, everyone) for number in numbers(context)]
     found = context.each("unknown worlds", toured, asked)
     if is_there(LEARNED):
         yield from of_learned_map(found, everyone)
@@ -65,7 +65,13 @@ def measure(context: Context) -> Iterator[Figure]:
             yield standings.mean_travel(found, name, trip, None)
         yield from standings.planning(found, name, None)
     yield expansions(found)
+    yield standings.certainty(found)
     yield drawn(context, everyone)
+
+
+def numbers(context: Context) -> range:
+    """Of the worlds."""
+    return range(QUICK if context.quick else WORLDS)
 
 
 def of_learned_map(found: Sequence[Found], everyone: tuple[str, ...]) -> Iterator[Figure]:
@@ -109,16 +115,12 @@ def of_noise(context: Context, asked: Sequence[Asked]) -> Iterator[Figure]:
 
 def expansions(found: Sequence[Found]) -> Figure:
     """What mending a search saves."""
-    both = [
-        [sum(trip.expanded for trip in one.tours[name]) for name in (D_STAR, A_STAR)]
-        for one in found
-        if one.all_arrived((D_STAR, A_STAR))
-    ]
-    mended, anew = (float(sum(column)) for column in zip(*both, strict=True))
-    note = f"{mended:.0f} and {anew:.0f} over all trips"
-    return Figure(
-        f"{D_STAR}: nodes expanded over those of {A_STAR}", mended / anew, "×", None, len(both), note
+    both = [one for one in found if one.all_arrived((D_STAR, A_STAR))]
+    mended, anew = (
+        sum(trip.expanded for one in both for trip in one.tours[name]) for name in (D_STAR, A_STAR)
     )
+    what, note = f"{D_STAR}: nodes expanded over those of {A_STAR}", f"{mended} and {anew} over all trips"
+    return Figure(what, mended / anew if anew else float("nan"), "×", None, len(both), note)
 
 
 def drawn(context: Context, everyone: tuple[str, ...]) -> Figure:

@@ -6,7 +6,7 @@ are.
 """
 
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple, Self
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float
@@ -14,7 +14,7 @@ from jaxtyping import Float
 from gaitwright.bench.unknown.incremental import Search
 from gaitwright.bench.unknown.lattice import CELL, Lattice, own_room
 from gaitwright.bench.unknown.lattice_search import a_star, descent, in_units, pulled, theta_star
-from gaitwright.bench.unknown.world import BOUNDS, RADIUS, Point
+from gaitwright.bench.unknown.world import BOUNDS, RADIUS, TOUCH, Point
 from gaitwright.navigation.sight import Sight
 
 FELT = 0.01
@@ -41,18 +41,18 @@ class AStar:
 
     lattice: Lattice = field(default_factory=lambda: Lattice.of(BOUNDS, RADIUS))
 
-    def seen(self, sight: Sight) -> Self:
+    def seen(self, sight: Sight) -> "AStar":
         """Knows the pieces of a look too."""
         return self.knows(self.lattice.with_pieces(sight.pieces))
 
-    def felt(self, place: Point, direction: float) -> Self:
+    def felt(self, place: Point, direction: float) -> "AStar":
         """Knows that something stands where it touched."""
         ahead = np.array([np.cos(direction), np.sin(direction)])
         across = FELT / 2.0 * np.array([-ahead[1], ahead[0]])
-        at = np.array(place) + (RADIUS - SOFTEST) * ahead
+        at = np.array(place) + (RADIUS - TOUCH) * ahead
         return self.knows(self.lattice.with_pieces(np.hstack([at - across, at + across])[None]))
 
-    def walked(self, way: Float[np.ndarray, "n 2"]) -> Self:
+    def walked(self, way: Float[np.ndarray, "n 2"]) -> "AStar":
         """Does not remember ways."""
         return self
 
@@ -60,7 +60,7 @@ class AStar:
         """Whether a known piece stands in a way."""
         return self.lattice.is_cut(path)
 
-    def knows(self, lattice: Lattice) -> Self:
+    def knows(self, lattice: Lattice) -> "AStar":
         """The planner with this lattice."""
         return self if lattice is self.lattice else replace(self, lattice=lattice)
 
@@ -87,10 +87,6 @@ class AStar:
         """A place in cells of the lattice."""
         x_min, y_min, *_ = self.lattice.bounds
         return (place[0] - x_min) / CELL, (place[1] - y_min) / CELL
-
-
-SOFTEST = 1e-3
-"""A touched thing is believed to be nearer than the radius by this [m]."""
 
 
 class PulledAStar(AStar):

@@ -5,13 +5,16 @@ import math
 from gaitwright.bench.unknown.segments import point_to_piece
 from gaitwright.numerics.compiled import kernel
 
+HAIR = 1e-9
+"""A disc that is so near to touching touches [m]."""
+
 
 @kernel
 def advance(edges, x, y, toward, most, room):
     """How far a point gets in a direction [rad] before it is nearer than `room` to an edge [m], at most
     `most`.
 
-    A point that is nearer already (by rounding) goes on where that takes it no nearer.
+    A point that is as near already goes on where that takes it no nearer.
     """
     ux, uy = math.cos(toward), math.sin(toward)
     free = most
@@ -21,7 +24,7 @@ def advance(edges, x, y, toward, most, room):
             continue
         if min(ay, by) - room > y + max(most * uy, 0.0) or max(ay, by) + room < y + min(most * uy, 0.0):
             continue
-        if point_to_piece(x, y, ax, ay, bx, by) <= room:
+        if point_to_piece(x, y, ax, ay, bx, by) <= room + HAIR:
             if approaches(x, y, ux, uy, ax, ay, bx, by):
                 return 0.0
             continue
@@ -54,7 +57,7 @@ def approaches(x, y, ux, uy, ax, ay, bx, by):
     """Whether a step in a direction leads nearer to a piece."""
     dx, dy = bx - ax, by - ay
     t = min(max(((x - ax) * dx + (y - ay) * dy) / max(dx * dx + dy * dy, 1e-300), 0.0), 1.0)
-    return (ax + t * dx - x) * ux + (ay + t * dy - y) * uy > 1e-9
+    return (ax + t * dx - x) * ux + (ay + t * dy - y) * uy > HAIR
 
 
 @kernel

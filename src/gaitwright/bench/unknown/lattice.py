@@ -6,7 +6,7 @@ was never seen is open. This is the best that a grid can do.
 """
 
 import math
-from typing import NamedTuple, Self
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float, UInt8
@@ -49,7 +49,7 @@ class Lattice(NamedTuple):
     """Of each node the bit k is set where the link to neighbour k is closed."""
 
     @classmethod
-    def of(cls, bounds: tuple[float, float, float, float], radius: float) -> Self:
+    def of(cls, bounds: tuple[float, float, float, float], radius: float) -> "Lattice":
         """Nothing is known but the bounds."""
         x_min, y_min, x_max, y_max = bounds
         columns, rows = (round(long / CELL) + 1 for long in (x_max - x_min, y_max - y_min))
@@ -62,7 +62,7 @@ class Lattice(NamedTuple):
                 closed[-1 if GO_Y[k] > 0 else 0, :] |= mask
         return cls(bounds, radius, np.empty((0, 4)), closed)
 
-    def with_pieces(self, seen: Float[np.ndarray, "n 4"]) -> Self:
+    def with_pieces(self, seen: Float[np.ndarray, "n 4"]) -> "Lattice":
         """With these pieces known as well."""
         new = news(self.pieces, seen)
         if not len(new):

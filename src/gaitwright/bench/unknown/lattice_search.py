@@ -19,7 +19,7 @@ UNIT = 1e6
 DIAGONAL = 1414214.0
 """A diagonal link [units]."""
 SLACK = 0.25 * UNIT
-"""The last link, to the goal, is straight, and the estimate goes by eight directions: off by less than this."""
+"""The last link, to the goal, is straight, and the estimate goes by eight directions: off by less."""
 ROOT = math.sqrt(2.0)
 STRAIGHT = 1e-9
 """Any-angle ways that differ by less are as long as each other [cells]."""

@@ -178,6 +178,15 @@ def promises(found: Sequence[Found], name: str) -> Iterator[Figure]:
     )  # fmt: skip
 
 
+def certainty(found: Sequence[Found]) -> Figure:
+    """How well the optimum is known."""
+    apart = [100.0 * (one.optimum.upper / one.optimum.lower - 1.0) for one in found if one.truth == "way"]
+    note = f"mean {mean_of(apart):.2g} %; travel is compared with the lower bound"
+    return Figure(
+        "optimum: bounds apart, most", max(apart, default=float("nan")), "%", None, len(apart), note
+    )
+
+
 def after_moves(found: Sequence[Found], name: str, trip: int) -> list[Figure]:
     """Answers and travel of the trips after some obstacles moved, against the world as it is then."""
     ends = [(one, later) for one in found for later in one.tours[name][trip:]]

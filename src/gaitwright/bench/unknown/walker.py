@@ -6,26 +6,24 @@ It never enters an obstacle: what its planner does not know of, it touches.
 import math
 from dataclasses import dataclass
 from time import perf_counter
-from typing import Protocol, Self, runtime_checkable
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float
 
 from gaitwright.bench.unknown.body import advance, touched
 from gaitwright.bench.unknown.eyes import Camera, blurred, look
-from gaitwright.bench.unknown.world import RADIUS, Point, World
+from gaitwright.bench.unknown.world import RADIUS, TOUCH, Point, World
 from gaitwright.navigation.sight import Sight
 
-TOUCH = 5e-4
-"""A disc gives so far before it stops [m]."""
 STEP, TURN = 0.1, 0.3
 """It looks each time it has gone so far [m] or turned so far [rad]."""
 SPEED, RATE = 0.5, 1.0
 """Of walking [m/s] and of turning [rad/s]."""
 FARTHEST = 3000.0
 """A trip as long as this has failed [m]."""
-MOST_CONTACTS = 200
-"""A trip with more contacts has failed."""
+MOST_CONTACTS, MOST_PLANS = 200, 20_000
+"""A trip with more contacts or plans has failed."""
 HERE = 1e-9
 """Places nearer to each other are one [m]."""
 ARRIVED, NONE, LOST = "arrived", "none", "lost"
@@ -61,15 +59,15 @@ class Way(Protocol):
 class Planner(Protocol):
     """A map and a search in it: what learns more is another one."""
 
-    def seen(self, sight: Sight) -> Self:
+    def seen(self, sight: Sight) -> "Planner":
         """The planner after a look."""
         ...
 
-    def felt(self, place: Point, direction: float) -> Self:
+    def felt(self, place: Point, direction: float) -> "Planner":
         """The planner after a touch: where the disc's middle is, and in which direction [rad] it touches."""
         ...
 
-    def walked(self, way: Float[np.ndarray, "n 2"]) -> Self:
+    def walked(self, way: Float[np.ndarray, "n 2"]) -> "Planner":
         """The planner after a trip that went this way, from its start to its end."""
         ...
 
@@ -151,7 +149,7 @@ class Walker:
                 self.follow(way)
                 if self.place == goal:
                     end = ARRIVED
-                elif self.metres > FARTHEST or self.contacts > MOST_CONTACTS:
+                elif self.is_lost:
                     end = LOST
         trace = np.array(self.trace)
         if end == ARRIVED:
@@ -160,6 +158,11 @@ class Walker:
             end, self.metres, self.metres / SPEED + self.turned / RATE, trace, tuple(self.plans),
             self.learning, self.looks, self.contacts, self.expanded, self.promised, self.excess, self.nearest,
         )  # fmt: skip
+
+    @property
+    def is_lost(self) -> bool:
+        """Whether the trip has gone beyond its bounds."""
+        return self.metres > FARTHEST or self.contacts > MOST_CONTACTS or len(self.plans) > MOST_PLANS
 
     def plan(self, goal: Point) -> Float[np.ndarray, "n 2"] | None:
         """Way-points to the goal, or `None`."""

@@ -12,6 +12,8 @@ from shapely import Polygon
 Point = tuple[float, float]
 RADIUS = 0.16
 """Of the robot's disc [m]."""
+TOUCH = 5e-4
+"""It gives so far before it stops [m]."""
 WIDER = RADIUS / math.cos(math.radians(15.0))
 """A planner of tangent polygons with six corners on a half circle may ask for this radius [m]."""
 SIZE = 20.0
