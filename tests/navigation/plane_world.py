@@ -12,7 +12,7 @@ from scipy.sparse.csgraph import dijkstra
 from shapely import LineString, Point, Polygon
 
 from gaitwright.navigation.learned_map import LearnedMap
-from gaitwright.navigation.sight import Sight
+from gaitwright.signals import Sight
 
 RADIUS = 0.16
 WIDER = RADIUS / math.cos(math.radians(15.0))

@@ -27,7 +27,7 @@ from shapely import LineString
 from gaitwright.errors import WrongUse
 from gaitwright.navigation.learned_map import LearnedMap
 from gaitwright.navigation.piece_rows import FELT, KIND, SEEN
-from gaitwright.navigation.sight import Sight
+from gaitwright.signals import Sight
 from gaitwright.navigation.tolerances import CHECK, LINK, NODE, STOP, TOUCH, WORTH
 
 BOUNDS = (0.0, 0.0, 6.0, 6.0)

@@ -19,7 +19,7 @@ from gaitwright.navigation.piece_rows import CORNERS, FELT, KIND, SUPPOSED, Rows
 from gaitwright.navigation.planning import Point, Way, best_way
 from gaitwright.navigation.raster import Raster, blank, with_sight, with_way
 from gaitwright.navigation.roads import Bounds, RoadMap, fence
-from gaitwright.navigation.sight import Sight
+from gaitwright.signals import Sight
 from gaitwright.navigation.tolerances import CHECK, DEEP, TOUCH
 from gaitwright.navigation.unlearning import unlearned
 
