@@ -10,7 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gaitwright.ground.terrain import Box, Flat, HeightField, Slope, Surface
+from gaitwright.ground.patches import Patch
+from gaitwright.ground.terrain import Box, Flat, HeightField, Slope, Solid, Surface
 
 Bounds = tuple[float, float, float, float]
 
@@ -26,6 +27,10 @@ class Layout(NamedTuple):
     bounds: Bounds
     """x_min, y_min, x_max, y_max [m]."""
     friction: float = FRICTION
+    shapes: tuple[Solid, ...] = ()
+    patches: tuple[Patch, ...] = ()
+    goal: tuple[float, float] | None = None
+    """Where a mission leads to [m]; left free, as the start is."""
 
 
 def _bounds(scale: float) -> Bounds:
