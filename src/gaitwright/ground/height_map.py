@@ -1,7 +1,7 @@
 """A grey picture (PNG) → a height field: black is low, white is high, the picture's top is ahead of +y.
 
-Untrusted: its size is looked at before it is decoded, and only what is grey, of 8 or 16 bits, is a height map.
-Pillow decodes it: MuJoCo brings no reader that the ground may ask, and the only other way is one of our own.
+Untrusted: its size is looked at before it is decoded, and only what is grey, of 8 or 16 bits, is a height
+map. Pillow decodes it: MuJoCo brings no reader that the ground may ask, and the other way is one of our own.
 """
 
 import io

@@ -13,9 +13,9 @@ from shapely.geometry.base import BaseGeometry
 Outline = tuple[tuple[float, float], ...]
 """Corners of a simple polygon, anticlockwise, each once, x, y [m]."""
 
-SAGITTA = 5e-4
+SAGITTA = 1e-3
 """The outline of a circle lies outside it, nowhere by more than this [m]."""
-MOST_SIDES = 64
+MOST_SIDES = 48
 """Of a circle's outline; of a large one the sagitta is larger."""
 SNAP = 1e-3
 """Corners nearer to each other than this are one [m]: feet and maps know no less than a millimetre."""
@@ -24,11 +24,16 @@ FLATTEST = 1e-6
 
 
 def circle(x: float, y: float, radius: float) -> Float[np.ndarray, "corners 2"]:
-    """Corners of the polygon around a circle [m]."""
+    """Corners of a polygon around a circle, as near to it as maps need [m]."""
     sides = math.ceil(math.pi / math.acos(radius / (radius + SAGITTA)))
     sides = min(max(sides, 8), MOST_SIDES)
+    return regular(x, y, radius / math.cos(math.pi / sides), sides)
+
+
+def regular(x: float, y: float, radius: float, sides: int) -> Float[np.ndarray, "corners 2"]:
+    """Corners of a polygon of equal sides in a circle [m]."""
     angle = 2.0 * math.pi * np.arange(sides) / sides
-    return np.column_stack([np.cos(angle), np.sin(angle)]) * radius / math.cos(math.pi / sides) + (x, y)
+    return np.column_stack([np.cos(angle), np.sin(angle)]) * radius + (x, y)
 
 
 def outline_of(corners: Sequence[Sequence[float]] | np.ndarray) -> Outline:
@@ -52,14 +57,16 @@ def mended(corners: Sequence[tuple[float, float]]) -> tuple[Outline, str]:
     if len(ring) < 3:
         raise ValueError(f"has {len(ring)} different corners, and takes three or more")
     polygon = Polygon(ring)
-    if polygon.area <= SNAP * SNAP:
+    if polygon.convex_hull.area <= SNAP * SNAP:
         raise ValueError("has no area: its corners lie on a line")
     if not polygon.is_valid:
         why, _, where = shapely.is_valid_reason(polygon).rstrip("]").partition("[")
         x, y = (float(number) for number in where.split()[:2])
         raise ValueError(f"crosses itself at ({x:g}, {y:g})" if "Self" in why else why.lower())
     lost = len(corners) - len(ring)
-    said = f"{lost} corner{'s' if lost > 1 else ''} repeated or within 1 mm of the next left out" if lost else ""
+    said = (
+        f"{lost} corner{'s' if lost > 1 else ''} repeated or within 1 mm of the next left out" if lost else ""
+    )
     return outline_of(ring), said
 
 
@@ -91,7 +98,7 @@ def _triangles(region: BaseGeometry) -> Iterator[list[tuple[float, float]]]:
     for polygon in getattr(region, "geoms", [region]):
         if isinstance(polygon, Polygon) and not polygon.is_empty:
             for triangle in shapely.constrained_delaunay_triangles(polygon).geoms:
-                yield list(triangle.exterior.coords)[:-1]
+                yield [(x, y) for x, y in shapely.get_coordinates(triangle)[:-1].tolist()]
 
 
 def _root(now: dict[int, int], k: int) -> int:

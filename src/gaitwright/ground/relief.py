@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.ground.terrain import BOX, CYLINDER, PRISM, PYRAMID, SPHERE, WEDGE, Number, Solid
+from gaitwright.ground.terrain import BOX, CYLINDER, PRISM, SPHERE, WEDGE, Number, Solid
 from gaitwright.numerics.compiled import kernel
 
 PER_SOLID = 16
@@ -27,8 +27,8 @@ class Sorted(NamedTuple):
 
     rows: np.ndarray
     """`(n, 11)` kind; centre x, y; cosine and sine of the yaw; half sides or radius; level or top [m]; height
-    [m] of what slants, or where a prism's corners begin; share of a frustum's top, or how many corners; its highest
-    point [m]."""
+    of what slants [m], or where a prism's corners begin; share of a frustum's top, or how many corners; its
+    highest point [m]."""
     corners: np.ndarray
     """`(m, 2)` of all prisms [m]."""
     place: np.ndarray
@@ -128,11 +128,11 @@ def look(relief, x, y, out):
 @kernel
 def top_of(row, corners, x, y):
     """Height of a solid at a place and its rise along x and y; -inf outside."""
-    kind, c, s, a, b, z = int(row[0]), row[3], row[4], row[5], row[6], row[7]
+    kind, c, s, a, b, z = row[0], row[3], row[4], row[5], row[6], row[7]
     dx, dy = x - row[1], y - row[2]
     if kind == PRISM:
         return z if inside(corners, int(row[8]), int(row[9]), x, y) else -math.inf, 0.0, 0.0
-    if kind == CYLINDER or kind == SPHERE:
+    if kind in (CYLINDER, SPHERE):
         room = a * a - dx * dx - dy * dy
         if room < 0.0:
             return -math.inf, 0.0, 0.0

@@ -9,7 +9,8 @@ from jaxtyping import Float
 
 from gaitwright.errors import WrongUse
 from gaitwright.ground import height_map, layouts, scene_file, scenes_list
-from gaitwright.ground.holes import Hole, Pitted
+from gaitwright.ground.holes import Hole
+from gaitwright.ground.layout import FRICTION
 from gaitwright.ground.patches import Patch, sorted_patches
 from gaitwright.ground.relief import Relief
 from gaitwright.ground.terrain import Box, Number, Solid, Surface, upward
@@ -32,12 +33,14 @@ class Scene(Surface):
     """x_min, y_min, x_max, y_max: robots stay inside."""
     start: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """x, y, yaw."""
-    friction: float = layouts.FRICTION
+    friction: float = FRICTION
     """Coefficient of friction between ground and robots [-], where no patch has its own."""
     seed: int = 0
     """What the random parts were drawn from."""
     shapes: tuple[Solid, ...] = ()
     """What stands there beside the boxes."""
+    holes: tuple[Hole, ...] = ()
+    """Where the holes are that its surface has (`holes.dug`)."""
     patches: tuple[Patch, ...] = ()
     """Where the ground has another friction; of several the last one counts."""
     goal: tuple[float, float] | None = None
@@ -49,11 +52,6 @@ class Scene(Surface):
     def solids(self) -> tuple[Solid, ...]:
         """All that stands on the ground: the boxes, then the shapes."""
         return (*self.boxes, *self.shapes)
-
-    @property
-    def holes(self) -> tuple[Hole, ...]:
-        """Holes in its plane; those of a height field are in its heights."""
-        return self.surface.holes if isinstance(self.surface, Pitted) else ()
 
     def height(self, x: Number, y: Number) -> Number:
         """Height of the highest thing at a place, surface or solid [m]."""
@@ -85,8 +83,11 @@ class Scene(Surface):
         return self.level(solid) + solid.height
 
     def obstacles(self, step: float) -> tuple[Solid | Hole, ...]:
-        """What is walked around by a robot that steps up or down by `step` [m] (`walls`), but for a floor made
-        of boxes: what covers more than half of the field and is no higher than the start and a step."""
+        """What is walked around by a robot that steps up or down by `step` [m] (`walls`).
+
+        A floor made of boxes is not: what covers more than half of the field and is no higher than the start
+        and a step.
+        """
         floor = self._floor(step)
         return walls(self, [solid for solid in self.solids if solid not in floor], self.holes, step)
 

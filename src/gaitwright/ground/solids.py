@@ -1,11 +1,10 @@
 """The primitives that stand on the ground beside `Box`: cylinder, pyramid, wedge, sphere, prism (row V1).
 
-World frame, metres and radians. Below what they stand on their sides go on straight down, but for the sphere's.
+World frame, metres and radians. Below what they stand on their sides go on straight down, but a sphere's.
 """
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 from typing import final
 
 import numpy as np
@@ -69,7 +68,9 @@ class Pyramid(Solid):
 
     def tops(self) -> tuple[Float[np.ndarray, "corners 3"], ...]:
         low = lifted(self.corners(), 0.0)
-        high = lifted(rectangle(self.x, self.y, self.yaw, self.top * self.lx, self.top * self.ly), self.height)
+        high = lifted(
+            rectangle(self.x, self.y, self.yaw, self.top * self.lx, self.top * self.ly), self.height
+        )
         sides = [np.array([low[k - 1], low[k], high[k], high[k - 1]]) for k in range(4)]
         return (*sides, high) if self.top else tuple(side[:3] for side in sides)
 
@@ -175,7 +176,7 @@ class Prism(Solid):
     height: float
     base: float = 0.0
 
-    @cached_property
+    @property
     def centre(self) -> tuple[float, float]:
         middle = shapely.Polygon(self.outline).centroid
         return middle.x, middle.y
@@ -187,4 +188,4 @@ class Prism(Solid):
         return tuple(lifted(part, self.height) for part in convex_parts(shapely.Polygon(self.outline)))
 
     def row(self, level: float) -> tuple[float, ...]:
-        return (PRISM, *self.centre, 1.0, 0.0, 0.0, 0.0, level + self.height, 0.0, len(self.outline))
+        return (PRISM, *self.centre, 1.0, 0.0, 0.0, 0.0, level + self.height, 0.0, float(len(self.outline)))

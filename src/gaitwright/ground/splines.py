@@ -1,8 +1,8 @@
-"""Smooth ground from control points: bicubic patches of Cardinal splines and Bézier curves (thesis 6.2, fig. 6.4).
+"""Smooth ground from control points: bicubic Cardinal and Bézier patches (thesis 6.2, figure 6.4).
 
-A net of control heights `N` on a regular grid is a surface z(x, y) = B(y) N B(x)ᵀ, the tensor product of curves
-over its rows and columns. It is sampled into the height field that physics collides with, which is from then on
-the ground itself.
+A net of control heights `N` on a regular grid is a surface z(x, y) = B(y) N B(x)ᵀ, the tensor product of
+curves over its rows and columns. It is sampled into the height field that physics collides with, which is
+from then on the ground itself.
 """
 
 import math
@@ -13,7 +13,7 @@ from jaxtyping import Float
 from gaitwright.ground.terrain import HeightField
 
 SAMPLE = 0.05
-"""Greatest distance between the nodes of the height field [m]; of a large net a 64th of its spacing is enough."""
+"""Greatest distance between the nodes of the height field [m], but for wide nets."""
 FINEST = 64
 """Nodes from one control point to the next, at most."""
 
@@ -21,8 +21,8 @@ FINEST = 64
 def cardinal(controls: int, fine: int, tension: float) -> Float[np.ndarray, "samples controls"]:
     """What each control point adds to each sample of a Cardinal spline, `fine` samples to a span.
 
-    The curve goes through its control points; its slope there is (1 − tension) times that of the line from the
-    point before to the one after. The line through the last two goes on beyond the end.
+    The curve goes through its control points; its slope there is (1 − tension) times that of the line from
+    the point before to the one after. The line through the last two goes on beyond the end.
     """
     spans = controls - 1
     points = np.eye(controls)
@@ -64,7 +64,7 @@ def spline_field(
     net: Float[np.ndarray, "rows columns"],
     tension: float | None = 0.0,
 ) -> HeightField:
-    """The surface of a net of control heights [m], rows along y, sampled; `tension` `None`: Bézier patches."""
+    """The surface of a net of control heights [m], rows along y; Bézier patches where `tension` is `None`."""
     fine = fineness(spacing)
 
     def basis(controls: int) -> Float[np.ndarray, "samples controls"]:

@@ -110,6 +110,12 @@ class HeightField(Surface):
         )
 
 
+def smooth_step(t: np.ndarray) -> np.ndarray:
+    """From 0 to 1 with no slope at either end; constant outside."""
+    t = np.clip(t, 0.0, 1.0)
+    return t * t * (3.0 - 2.0 * t)
+
+
 def sampled(surface: Surface, bounds: tuple[float, float, float, float], spacing: float) -> HeightField:
     """Any surface as a height field over `bounds` (x_min, y_min, x_max, y_max) [m]."""
     x_min, y_min, x_max, y_max = bounds
@@ -158,7 +164,7 @@ class Solid(ABC):
         return float(x_min), float(y_min), float(x_max), float(y_max)
 
 
-BOX, CYLINDER, PYRAMID, WEDGE, SPHERE, PRISM = range(6)
+BOX, CYLINDER, PYRAMID, WEDGE, SPHERE, PRISM = map(float, range(6))
 """Kinds of solids, as the first number of their rows."""
 
 

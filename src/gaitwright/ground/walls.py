@@ -2,8 +2,8 @@
 
 *High* is what rises by more than a step within a step's length: a box, but not a pyramid of 20°. A hole is
 walked around where it is deeper than a step and wider than `WIDE` steps; narrower ones are left to the feet,
-which stand beside them and step over (`footholds`, `foothold_guard`). A solid that a ramp leads up to, and the
-ramp itself, are walls only along those stretches of their outlines where the ground breaks.
+which stand beside them and step over (`footholds`, `foothold_guard`). A solid that a ramp leads up to, and
+the ramp itself, are walls only along those stretches of their outlines where the ground breaks.
 """
 
 from collections.abc import Sequence
@@ -64,9 +64,7 @@ def _stretches(ground: Surface, solid: Solid, step: float) -> list[Solid]:
     breaks = _breaks(ground, ring, (along[:-1] + along[1:]) / 2, step)
     if breaks.all():
         return [solid]
-    strips = [
-        substring(ring, along[k], along[k + 1]) for k in np.flatnonzero(breaks)
-    ]
+    strips = [substring(ring, along[k], along[k + 1]) for k in np.flatnonzero(breaks)]
     edge = shapely.line_merge(shapely.union_all(strips))
     wall = edge.buffer(THICK * step, cap_style="flat", join_style="mitre").intersection(outline)
     parts = getattr(wall, "geoms", [wall])

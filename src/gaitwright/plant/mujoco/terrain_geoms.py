@@ -105,7 +105,7 @@ def _add_shape(into: "Pieces", name: str, shape: Solid, level: float) -> None:
         tops = shape.tops()
         parts = tops if isinstance(shape, Prism) else (np.concatenate(tops),)
         for k, top in enumerate(parts):
-            into.add_mesh(f"{name}_{k}", top + (0.0, 0.0, level), level - 2.0 * shape.reach)
+            into.add_mesh(f"{name}_{k}", top + np.array([0.0, 0.0, level]), level - 2.0 * shape.reach)
 
 
 class Pieces:
