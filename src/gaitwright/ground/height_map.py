@@ -7,6 +7,7 @@ map. Pillow decodes it: MuJoCo brings no reader that the ground may ask, and the
 import io
 import math
 import re
+import warnings
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -74,7 +75,7 @@ def grey_of(path: Path | str) -> Float[np.ndarray, "rows columns"]:
     asked = f"height map {short(str(path))}"
     content = content_of(path, "height map", MAX_BYTES)
     try:
-        image = Image.open(io.BytesIO(content), formats=("PNG",))
+        image = opened(content)
     except (UnidentifiedImageError, Image.DecompressionBombError):
         raise BadFile(f"{asked} is no PNG picture, or too large a one") from None
     except (OSError, SyntaxError, ValueError) as error:
@@ -85,6 +86,13 @@ def grey_of(path: Path | str) -> Float[np.ndarray, "rows columns"]:
     except (OSError, SyntaxError, ValueError, EOFError) as error:
         raise BadFile(f"{asked} is a damaged PNG: {error}") from None
     return pixels.astype(float) / DEPTH[image.mode]
+
+
+def opened(content: bytes) -> Image.Image:
+    """A PNG, not decoded yet. Raises what Pillow raises."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", Image.DecompressionBombWarning)  # its size is looked at by `_check`
+        return Image.open(io.BytesIO(content), formats=("PNG",))
 
 
 def _check(asked: str, image: Image.Image) -> None:

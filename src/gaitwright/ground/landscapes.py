@@ -52,10 +52,10 @@ ACROSS: Bounds = (-4.0, -4.0, 10.0, 4.0)
 
 def trench(difficulty: float, scale: float, rng: np.random.Generator) -> Layout:
     """Trenches across the whole field, each a little askew, 5 to 20 cm wide."""
-    found, at = [], TRENCH_AT
+    found, at, skewed = [], TRENCH_AT, rng.uniform(-0.2, 0.2) * difficulty
     for _ in range(TRENCHES):
         width = between(0.05, 0.2, difficulty) * rng.uniform(0.8, 1.0)
-        skew = rng.uniform(-0.2, 0.2) * difficulty
+        skew = skewed + rng.uniform(-0.04, 0.04) * difficulty
         strip = rectangle(at + width / 2, 0.0, skew, width, 12.0)
         inside = shapely.intersection(shapely.Polygon(strip), shapely.box(*ACROSS))
         found.append(Hole(outline_of(shapely.get_coordinates(inside)[:-1]), DEEP))

@@ -44,6 +44,8 @@ def draw_relief(ax: Axes, scene: Scene, extent: Extent) -> None:
     lit = LIGHT.shade(
         heights, EARTH, norm=norm, blend_mode="soft", vert_exag=steep, dx=wide / columns, dy=high / rows
     )
+    if np.ptp(ground) < FLATTEST:
+        lit[..., 3] = heights > ground + FLATTEST  # level ground is left plain
     ax.imshow(lit, extent=extent, origin="lower", interpolation="bilinear", zorder=1)
 
 

@@ -58,7 +58,7 @@ def ground(scene: Scene) -> dict[str, Any]:
     last = first + columns + 1
     corners = np.column_stack([first, first + 1, last, first, last, first + columns])
     across, along = np.meshgrid(x, y)
-    return mesh(np.column_stack([across.ravel(), along.ravel(), z.ravel()]), corners, GROUND)
+    return mesh(np.column_stack([across.ravel(), along.ravel(), z.ravel()]), corners.reshape(-1, 3), GROUND)
 
 
 def pitted(surface: Pitted, bounds: tuple[float, float, float, float]) -> dict[str, Any]:
