@@ -92,7 +92,7 @@ def add_robot_and_scene(parser: argparse.ArgumentParser, scene: str) -> None:
     robot = "a name that `gaitwright robots` lists, or an MJCF or URDF file (go2)"
     parser.add_argument("--robot", default="go2", metavar="NAME|FILE", help=robot)
     add_packages(parser)
-    where = f"a name that `gaitwright scenes` lists, or a JSON file ({scene})"
+    where = f"a name that `gaitwright scenes` lists, a JSON or a PNG file ({scene})"
     parser.add_argument("--scene", default=scene, metavar="NAME|FILE", help=where)
 
 
@@ -168,6 +168,15 @@ def add_robots(parser: argparse.ArgumentParser) -> None:
     which = "examine this robot: a name, or an MJCF or URDF file"
     parser.add_argument("--check", metavar="FILE|NAME", help=which)
     add_packages(parser)
+
+
+def add_scenes(parser: argparse.ArgumentParser) -> None:
+    plot = "draw these from above, all that come along where none is named"
+    parser.add_argument("--plot", nargs="*", metavar="NAME|FILE", help=plot)
+    parser.add_argument("--out", metavar="FILE", help="where to draw (runs/scenes.png)")
+    parser.add_argument("--seed", type=seed, default=0, metavar="N", help="draws their random parts (0)")
+    size = "in the size of this robot, and hatched what it walks around (go2)"
+    parser.add_argument("--robot", default="go2", metavar="NAME|FILE", help=size)
 
 
 def add_skills(parser: argparse.ArgumentParser) -> None:
@@ -274,7 +283,7 @@ ADD = {
     "mission": add_mission,
     "skill": add_skill,
     "robots": add_robots,
-    "scenes": add_nothing,
+    "scenes": add_scenes,
     "skills": add_skills,
     "teach": add_teach,
     "explain": add_explain,

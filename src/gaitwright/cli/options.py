@@ -63,9 +63,17 @@ COMMANDS = {
     ),
     "scenes": Command(
         "the scenes that come along",
-        "The built-in scenes. Some take a number after a colon. Other scenes come from JSON files: "
-        "--scene FILE.json.",
-        ("gaitwright scenes", "gaitwright mission --scene stairs:0.08 --goal 6 0"),
+        "The built-in scenes. Some take a number after a colon. --plot draws scenes from above. Other scenes "
+        "come from JSON files, --scene FILE.json, as "
+        '{"boxes": [{"x": 2, "y": 0, "lx": 0.5, "ly": 0.4, "height": 0.3}], "shapes": [{"type": "cylinder", '
+        '"x": 4, "y": 1, "radius": 0.2, "height": 0.8}], "holes": [{"outline": [[5, -1], [6, -1], [6, 1]], '
+        '"depth": 0.3}], "goal": [7, 0]}; docs/scenes.md tells all that one may hold. A grey PNG is a '
+        "height map: --scene FILE.png:ACROSS:RELIEF, metres from side to side and from black to white.",
+        (
+            "gaitwright scenes",
+            "gaitwright scenes --plot forest maze:0.8 yard.json --seed 3 --out scenes.png",
+            "gaitwright mission --scene stairs:0.08 --goal 6 0",
+        ),
     ),
     "skills": Command(
         "the skills, with their speeds for a robot",

@@ -68,6 +68,8 @@ def find_scene(asked: str, seed: int, robot: Robot, start: list[float] | None = 
     """The scene of that name or file, in the robot's size, with `start` (x, y, yaw) where given."""
     with working(f"reading scene {told(asked)}", worth_a_line=None):
         scene = scene_for(robot, asked, seed)
+    for note in scene.notes:
+        remark(f"{scene.name}: {note}")
     if start is None:
         return scene
     x, y, yaw = start

@@ -4,6 +4,7 @@ import io
 import json
 import sqlite3
 import zipfile
+import zlib
 from collections.abc import Callable
 from contextlib import closing, redirect_stderr, redirect_stdout
 from dataclasses import dataclass
@@ -130,6 +131,22 @@ def damaged_skillbook(chance: Random, content: bytes) -> bytes:
         return db.serialize()
 
 
+def damaged_png(chance: Random, content: bytes) -> bytes:
+    """Bytes changed, or numbers in a chunk under a check sum that fits."""
+    if chance.random() < 0.5:
+        return damaged_bytes(chance, content)
+    chunks, at = [], 8
+    while at < len(content):
+        size = int.from_bytes(content[at : at + 4])
+        chunks.append((content[at + 4 : at + 8], content[at + 8 : at + 8 + size]))
+        at += size + 12
+    k = chance.randrange(len(chunks))
+    name, data = chunks[k]
+    chunks[k] = name, damaged_bytes(chance, data)
+    whole = (len(d).to_bytes(4) + n + d + zlib.crc32(n + d).to_bytes(4) for n, d in chunks)
+    return content[:8] + b"".join(whole)
+
+
 def damaged_text(chance: Random, content: bytes) -> bytes:
     """Lines lost, doubled or moved, or another value in the JSON of one."""
     if chance.random() < 0.2:
@@ -253,6 +270,7 @@ def damaged_line(chance: Random, content: bytes) -> bytes:
 
 KINDS = {
     "scene": Kind(".json", originals.scenes, damaged_json, take_scene),
+    "height map": Kind(".png", originals.height_maps, damaged_png, take_scene),
     "cycle": Kind(".json", originals.cycles, damaged_json, take_cycle),
     "mjcf": Kind(".xml", originals.mjcfs, damaged_xml, take_robot),
     "urdf": Kind(".urdf", originals.urdfs, damaged_xml, take_robot),
