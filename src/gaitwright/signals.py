@@ -55,7 +55,17 @@ class Sensed(Packed):
         return are_finite(self.row)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False)
+class DepthFrame:
+    """What a depth camera saw, whatever camera it was (`model.camera` has its rays)."""
+
+    ranges: Float[np.ndarray, "rows columns"]
+    """Distance along each pixel's ray [m], from above and from the left; NaN where nothing came back."""
+    time: float
+    """When, since the start [s]."""
+
+
+@dataclass(frozen=True)
 class Measured(Sensed):
     """What happened: the state as a plant has it, and what an inertial unit on the base feels.
 
@@ -67,6 +77,8 @@ class Measured(Sensed):
 
     specific_force_b: tuple[float, float, float]
     """Acceleration of the base origin less gravity, base axes, mean over the last control period [m/s²]."""
+    frame: DepthFrame | None = None
+    """What a depth camera saw in this tick; `None` where there is none, or nothing new."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,16 +91,6 @@ class Mission:
     """Wished speed [m/s]; `None` leaves it to the skill."""
     driver: str = "numerical"
     """Who computes the torques."""
-
-
-@dataclass(frozen=True, eq=False)
-class DepthFrame:
-    """What a depth camera saw, whatever camera it was (`model.camera` has its rays)."""
-
-    ranges: Float[np.ndarray, "rows columns"]
-    """Distance along each pixel's ray [m], from above and from the left; NaN where nothing came back."""
-    time: float
-    """When, since the start [s]."""
 
 
 class Sight(NamedTuple):
@@ -144,6 +146,8 @@ class GroundMap:
     """A sudden rise by more than this is an obstacle [m]."""
     friction: float = GRIP
     """Coefficient of friction that feet count on until they slip [-]."""
+    sight: Sight | None = None
+    """What the newest look showed; `None` for a map that is full from the start, and before the first look."""
 
 
 @dataclass(frozen=True, slots=True)

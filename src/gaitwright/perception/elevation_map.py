@@ -139,7 +139,9 @@ def felt(
     return replace(before, cells=cells)
 
 
-def standing(robot: Robot, sensed: Sensed, feet: Float[np.ndarray, "legs 3"], keep: float = math.inf) -> ElevationMap:
+def standing(
+    robot: Robot, sensed: Sensed, feet: Float[np.ndarray, "legs 3"], keep: float = math.inf
+) -> ElevationMap:
     """The map at the start: the plane through the feet's lowest points, world [m], under and around them.
 
     Nobody saw it, so it is only supposed; what feet rest on was felt.

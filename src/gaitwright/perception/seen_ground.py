@@ -47,7 +47,12 @@ class SeenElevation:
         (first_row, first_column), n = self.seen.first, self.seen.n
         row = np.floor(y / self.seen.spacing + 0.5).astype(int)
         column = np.floor(x / self.seen.spacing + 0.5).astype(int)
-        inside = (row >= first_row) & (row < first_row + n) & (column >= first_column) & (column < first_column + n)
+        inside = (
+            (row >= first_row)
+            & (row < first_row + n)
+            & (column >= first_column)
+            & (column < first_column + n)
+        )
         return np.where(inside, self._heights[row % n, column % n], np.nan)
 
     @cached_property
