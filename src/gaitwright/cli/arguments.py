@@ -29,6 +29,7 @@ from gaitwright.cli.arg_types import (
 )
 from gaitwright.cli.balance_arguments import add_balance
 from gaitwright.cli.operator_arguments import add_operators
+from gaitwright.cli.sight_arguments import add_sight
 from gaitwright.plant.names import FAULTS, INTEGRATORS, JOINTS, PLANTS, SENSORS
 
 
@@ -123,6 +124,7 @@ def add_run(parser: argparse.ArgumentParser, seconds: float) -> None:
     parser.add_argument("--seed", type=seed, default=0, metavar="N", help=random)
     parser.add_argument("--out", metavar="DIR", help="a new folder for picture, recording and report")
     add_plant(parser)
+    add_sight(parser)
     state = f"what the robot knows of its own state: {listed(SENSINGS)} (true)"
     parser.add_argument("--sensing", type=sensing, default="true", metavar="NAME", help=state)
     noise = f"how good its sensors are: {listed(SENSORS)} (exact; with --sensing estimated: go2)"

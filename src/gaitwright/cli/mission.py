@@ -7,6 +7,7 @@ from gaitwright.cli import trips
 from gaitwright.cli.book_files import rulebook_of
 from gaitwright.cli.console import remark
 from gaitwright.cli.driving import balance_for, by_book, profiles_for, profiles_to_play
+from gaitwright.cli.sight_arguments import sight_of
 from gaitwright.control.balance_rules import BalanceRules
 from gaitwright.control.takeover import HYBRID, LEARNED
 from gaitwright.errors import WrongUse
@@ -33,6 +34,7 @@ def run(args: Namespace) -> int:
         )
     balance = balance_for(args)  # a file that cannot be read is told before anything is made
     robot = trips.find_robot(args.robot, args.package)
+    sight = sight_of(args, robot)
     scene = trips.find_scene(args.scene, args.seed, robot, args.start)
     points = tuple(args.waypoints or [tuple(args.goal)])
     for point in points[:-1]:
@@ -42,7 +44,7 @@ def run(args: Namespace) -> int:
         DefaultChooser(robot).gait_for(args.speed)  # refuses a speed beyond the robot's reach
     mission = Mission(points, args.speed, args.driver)
     if not args.learn:
-        plain = trips.set_up(robot, scene, chooser_of(robot, args), args.distribution, args.sensing)
+        plain = trips.set_up(robot, scene, chooser_of(robot, args), args.distribution, args.sensing, sight)
         setting = with_profiles(plain, args, balance)
         return trips.run(setting, mission, args)
     if args.skillbook is None:
@@ -51,7 +53,7 @@ def run(args: Namespace) -> int:
         )
     with open_for_learning(args.skillbook) as ledger:  # from the beginning: nobody else teaches it meanwhile
         chooser = RuleChooser(robot, ledger.book.rulebook)
-        plain = trips.set_up(robot, scene, chooser, args.distribution, args.sensing)
+        plain = trips.set_up(robot, scene, chooser, args.distribution, args.sensing, sight)
         setting = with_profiles(plain, args, balance)
         name = f"{scene.name} (seed {args.seed})"
         return trips.run(setting, mission, args, after=lambda trip, back: learn(ledger, trip, back, name))

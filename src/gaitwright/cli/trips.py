@@ -18,13 +18,16 @@ from gaitwright.errors import WrongUse, told
 from gaitwright.ground.scene import Scene
 from gaitwright.learning.growth import Returns
 from gaitwright.locomotion import Brain, Lap
+from gaitwright.model.camera import Camera
 from gaitwright.model.robot import Robot
 from gaitwright.navigation.navigator import Navigator
 from gaitwright.numerics.compiled import is_warm
 from gaitwright.perception.estimated_state import Sensing
+from gaitwright.perception.known_ground import map_of
 from gaitwright.plant.faults import FaultyPlant, breakdown
 from gaitwright.plant.imperfections import NOISE, Imperfections
 from gaitwright.plant.registry import make_plant
+from gaitwright.plant.seeing import SeeingPlant
 from gaitwright.record.recording import INTERRUPTED, Recording, Report
 from gaitwright.session import DT, Push, Session, record, scene_for, walk
 from gaitwright.signals import Mission
@@ -42,6 +45,8 @@ class Setting:
     scene: Scene
     varied: bool = True
     """Whether the start has small differences, drawn from the seed."""
+    camera: Camera | None = None
+    """What it sees the ground with; `None`: nothing."""
 
     @property
     def robot(self) -> Robot:
@@ -90,18 +95,26 @@ def check_inside(what: str, point: tuple[float, float], scene: Scene) -> None:
 
 
 def set_up(
-    robot: Robot, scene: Scene, chooser: Chooser, distribution: Method, sensing: Sensing = "true"
+    robot: Robot,
+    scene: Scene,
+    chooser: Chooser,
+    distribution: Method,
+    sensing: Sensing = "true",
+    sight: Camera | str = "known",
 ) -> Setting:
-    """The brain of a robot in a scene. Raises `WrongUse` where the start is no place to stand."""
+    """The brain of a robot in a scene; `sight`: known, blind, or its camera. Raises `WrongUse` where the
+    start is no place to stand."""
     x, y, _ = scene.start
+    camera = sight if isinstance(sight, Camera) else None
     with working(f"mapping scene {scene.name}", worth_a_line=None):
-        brain = Brain.of(robot, scene, chooser, DT, distribution, sensing=sensing)
-        on_obstacle = Navigator(robot).view(brain.perception.ground).blocked((x, y))
+        sees = sight != "blind"
+        brain = Brain.of(robot, scene, chooser, DT, distribution, sees=sees, sensing=sensing, camera=camera)
+        on_obstacle = Navigator(robot).view(map_of(scene, robot, sees)).blocked((x, y))
     if on_obstacle:
         raise WrongUse(
             f"the start ({x:g}, {y:g}) is on an obstacle of scene {scene.name}, or too near to one"
         )
-    return Setting(brain, scene)
+    return Setting(brain, scene, camera=camera)
 
 
 def check_mechanics(driver: str, args: Namespace) -> None:
@@ -169,6 +182,7 @@ def run(
 
         is_faulty = broken or senses != Imperfections()
         whole = FaultyPlant(plant, setting.robot, broken, senses) if is_faulty else plant
+        whole = SeeingPlant(whole, setting.camera, setting.scene) if setting.camera else whole
         session = Session(setting.brain, whole, mission, args.seconds, args.seed, setting.varied, lowers=True)
         if push:
             session.push(push)
