@@ -1,8 +1,8 @@
 """ElevationMap + DepthFrame → Sight: what a look shows of what is too high to step on, seen from above.
 
-The eye's surroundings are divided into sectors. In each stands the nearest wall that this frame hit, and as far
-as the ground before it was seen, it is free. Walls of neighbouring sectors that leave no room for a robot between
-them are one run, which is broken where it bends: only what was hit becomes a piece, nothing is imagined.
+The eye's surroundings are divided into sectors. In each stands the nearest wall that this frame hit, and as
+far as the ground before it was seen, it is free. Walls of neighbouring sectors that leave no room for a robot
+between them are one run, which is broken where it bends: what was hit becomes a piece, nothing is imagined.
 
 A wall is what the scanner has for one (`scanner.in_sight`): higher by more than a step than all that is
 known up to a gap's width before it.
@@ -30,6 +30,13 @@ NARROW = 0.8
 """Walls no farther apart than this, in body heights, leave no room for a robot between them."""
 CLUSTER = 4.0
 """Hits this many standard deviations of a range behind the nearest are of the same wall [-]."""
+SEEN_OVER = 0.75
+"""What is no higher than where the robot stands is a wall only if the ground before it is known to be lower
+over this share of the widest gap: else it may be the far side of one [-]."""
+AROUND = 3
+"""So many cells around a wall tell which way it looks."""
+OBLIQUE = 2.0 * 2.0 * math.pi / SECTORS
+"""A face seen from the side recedes in a sector by up to this share of its distance: 63° off the square."""
 BLIND = 3.0
 """Ground that was seen nearer than this, in body heights, is free all the way: pixels are far apart there."""
 BENT = 0.75
@@ -41,7 +48,8 @@ def sight_of(seen: ElevationMap, frame: DepthFrame, camera: Camera, sensed: Sens
     R_wb = rotation(sensed.orientation_wb)
     eye, height = camera.eye(sensed.position_w, R_wb), seen.height
     sectors, points = np.empty((SECTORS, 4)), np.empty((SECTORS, 3, 2))
-    limits, narrow = (step, SUDDEN * height, GAP * height, BLIND * height), NARROW * height
+    stands = float(sensed.position_w[2]) - height
+    limits, narrow = (step, SUDDEN * height, GAP * height, BLIND * height, stands), NARROW * height
     noise = (camera.noise, camera.noise_growth)
     look(
         seen.cells,
@@ -77,40 +85,88 @@ def rim(sectors: np.ndarray, eye: tuple[float, float]) -> np.ndarray:
 
 # --- kernels ---------------------------------------------------------------------------------------
 WALL, FREE, LEVEL, STOPPED = 0, 1, 2, 3
-"""Of a sector: distance of its nearest wall, up to where it is free, the height there [m]; whether it ended."""
+"""Of a sector: distance of its nearest wall, how far it is free, the height there [m]; whether it ended."""
 NEAREST, RIGHT, LEFT = 0, 1, 2
 """Its points on the wall: in the middle, and at either end."""
 
 
+GROUND, UNSURE, RIM, FACE = 0, 1, 2, 3
+"""What a hit is on: ground; nothing that can be told yet; a wall, on its upper rim or on its face."""
+
+
 @kernel
-def is_wall(cells, first, spacing, x, y, z, way_x, way_y, limits):
-    """Whether a hit at z in the cell at x, y is on a wall to one who comes along (way_x, way_y)."""
-    n = cells.shape[0]
-    row, column = nearest_line(y, spacing), nearest_line(x, spacing)
-    if not (first[0] <= row < first[0] + n and first[1] <= column < first[1] + n):
-        return False
-    i, j = slot(row, n), slot(column, n)
-    if not cells[i, j, VARIANCE] < math.inf:
-        return False
-    step, near, far = limits[0], limits[1], limits[2]
-    top = cells[i, j, HEIGHT] - 2.0 * math.sqrt(cells[i, j, VARIANCE])
-    before = -math.inf
-    for k in range(math.ceil(near / spacing), math.ceil(far / spacing) + 1):
-        r = nearest_line(y - k * spacing * way_y, spacing)
-        c = nearest_line(x - k * spacing * way_x, spacing)
-        if first[0] <= r < first[0] + n and first[1] <= c < first[1] + n:
-            u, v = slot(r, n), slot(c, n)
-            if cells[u, v, VARIANCE] < math.inf:
-                before = max(before, cells[u, v, HEIGHT])
-    if before == -math.inf:  # nothing is known before it: it must show that it is one by itself
-        before = cells[i, j, LOW]
-    return top - before > step and z - before > FOOT * step
+def cell_at(first, n, row, column):
+    """Where a cell of the world's lattice is kept; -1, -1 outside the window."""
+    if first[0] <= row < first[0] + n and first[1] <= column < first[1] + n:
+        return slot(row, n), slot(column, n)
+    return -1, -1
+
+
+@kernel
+def highest_before(cells, first, spacing, x, y, way_x, way_y, limits):
+    """Highest known ground before a place, to one who comes along (way_x, way_y); how far it is known [m].
+
+    -inf where none is known.
+    """
+    before, known = -math.inf, 0.0
+    for k in range(math.ceil(limits[1] / spacing), math.ceil(limits[2] / spacing) + 1):
+        row, column = (
+            nearest_line(y - k * spacing * way_y, spacing),
+            nearest_line(x - k * spacing * way_x, spacing),
+        )
+        i, j = cell_at(first, cells.shape[0], row, column)
+        if i >= 0 and cells[i, j, VARIANCE] < math.inf:
+            before, known = max(before, cells[i, j, HEIGHT]), k * spacing
+    return before, known
+
+
+@kernel
+def uphill(cells, first, spacing, row, column, level, way_x, way_y):
+    """Unit direction to a cell from the ground below `level` around it; where none is known, the way."""
+    x = y = 0.0
+    for u in range(-AROUND, AROUND + 1):
+        for v in range(-AROUND, AROUND + 1):
+            i, j = cell_at(first, cells.shape[0], row + u, column + v)
+            if i >= 0 and cells[i, j, VARIANCE] < math.inf and cells[i, j, HEIGHT] < level:
+                x, y = x - v, y - u
+    length = math.hypot(x, y)
+    return (x / length, y / length) if length > 0.5 else (way_x, way_y)
+
+
+@kernel
+def kind_of(cells, first, spacing, x, y, z, way_x, way_y, level, limits):
+    """What a hit at z in the cell at x, y is on to one who comes along (way_x, way_y).
+
+    `level`: of the ground in view before it [m], for where the map knows none; NaN: there is none.
+    """
+    row, column, step = nearest_line(y, spacing), nearest_line(x, spacing), limits[0]
+    i, j = cell_at(first, cells.shape[0], row, column)
+    if i < 0:
+        return UNSURE
+    top = z
+    if cells[i, j, VARIANCE] < math.inf:
+        top = max(z, cells[i, j, HEIGHT] - 2.0 * math.sqrt(cells[i, j, VARIANCE]))
+    before, _ = highest_before(cells, first, spacing, x, y, way_x, way_y, limits)
+    if before == -math.inf:
+        before = cells[i, j, LOW] if math.isnan(level) else level
+        if not top - before > step:
+            return GROUND if abs(z - level) < FOOT * step else UNSURE
+    if not (top - before > step and z - before > FOOT * step):
+        return GROUND
+    # Straight over it a gap is narrower than along the look.
+    up_x, up_y = uphill(cells, first, spacing, row, column, top - step, way_x, way_y)
+    straight, known = highest_before(cells, first, spacing, x, y, up_x, up_y, limits)
+    if straight >= top - step:
+        return GROUND
+    if known < SEEN_OVER * limits[2] and top - limits[4] <= step:  # perhaps the far side of a gap
+        return UNSURE
+    return FACE if cells[i, j, HIGH] - cells[i, j, LOW] > FOOT * step else RIM
 
 
 @kernel
 def sector_of(x, y):
     """The sector of a direction."""
-    return int(math.floor(math.atan2(y, x) / (2.0 * math.pi) * SECTORS)) % SECTORS
+    return math.floor(math.atan2(y, x) / (2.0 * math.pi) * SECTORS) % SECTORS
 
 
 @kernel
@@ -118,7 +174,7 @@ def look(cells, first, spacing, eye, R_wc, rays, ranges, noise, limits, sectors,
     """Writes sectors `(SECTORS, 4)` and their points `(SECTORS, 3, 2)` from the hits of a frame."""
     rows, columns = ranges.shape
     sectors[:, WALL], sectors[:, FREE], sectors[:, LEVEL], sectors[:, STOPPED] = math.inf, 0.0, math.nan, 0.0
-    walls = np.zeros(rows * columns, np.bool_)
+    kinds = np.zeros(rows * columns, np.int8)
     for k in range(rows * columns - 1, -1, -1):  # from below: so each sector goes outwards
         far = ranges[k // columns, k % columns]
         if not far < math.inf:
@@ -131,41 +187,54 @@ def look(cells, first, spacing, eye, R_wc, rays, ranges, noise, limits, sectors,
         x, y, z = eye[0] + far * ray[0], eye[1] + far * ray[1], eye[2] + far * ray[2]
         way_x, way_y = ray[0] / level, ray[1] / level
         inside = 0.5 * spacing  # a face stands on the line between two cells as often as not
-        walls[k] = is_wall(
-            cells, first, spacing, x + inside * way_x, y + inside * way_y, z, way_x, way_y, limits
+        near = away - sectors[s, FREE] <= limits[2]
+        level_before = sectors[s, LEVEL] if near else math.nan
+        kinds[k] = kind_of(
+            cells,
+            first,
+            spacing,
+            x + inside * way_x,
+            y + inside * way_y,
+            z,
+            way_x,
+            way_y,
+            level_before,
+            limits,
         )
-        if walls[k]:
+        if kinds[k] >= RIM:
             sectors[s, WALL] = min(sectors[s, WALL], away)
             sectors[s, STOPPED] = 1.0
         elif sectors[s, STOPPED] == 0.0:
             # Nothing of a step's height stands between what was seen before and this.
             over = z - (away - sectors[s, FREE]) * ray[2] / level - max(sectors[s, LEVEL], z)
-            passed = away <= limits[3] or over <= limits[0]
+            passed = kinds[k] == GROUND and (away <= limits[3] or over <= limits[0])
             if passed and away > sectors[s, FREE]:
                 sectors[s, FREE], sectors[s, LEVEL] = away, z
             sectors[s, STOPPED] = 0.0 if passed else 1.0
-    gather(eye, R_wc, rays, ranges, noise, spacing, walls, sectors, points)
+    gather(eye, R_wc, rays, ranges, noise, spacing, kinds, sectors, points)
 
 
 @kernel
-def gather(eye, R_wc, rays, ranges, noise, spacing, walls, sectors, points):
+def gather(eye, R_wc, rays, ranges, noise, spacing, kinds, sectors, points):
     """Writes the points of each sector's wall: the mean of its hits, and those farthest right and left."""
     columns = ranges.shape[1]
     count, ends = np.zeros(SECTORS), np.empty((SECTORS, 2))
     points[:], ends[:, 0], ends[:, 1] = 0.0, math.inf, -math.inf
-    for k in range(walls.size):
-        if not walls[k]:
+    for k in range(kinds.size):
+        if kinds[k] < RIM:
             continue
         far, ray = ranges[k // columns, k % columns], times(R_wc, vec(rays[k]))
         away, s = far * math.hypot(ray[0], ray[1]), sector_of(ray[0], ray[1])
-        if away > sectors[s, WALL] + CLUSTER * (noise[0] + noise[1] * far * far) + 0.25 * spacing:
+        behind = away - sectors[s, WALL] - CLUSTER * (noise[0] + noise[1] * far * far) - 0.25 * spacing
+        if behind > (OBLIQUE * away if kinds[k] == FACE else 0.0):
             continue
         x, y = eye[0] + far * ray[0], eye[1] + far * ray[1]
         middle = 2.0 * math.pi * (s + 0.5) / SECTORS
         beside = math.cos(middle) * ray[1] - math.sin(middle) * ray[0]
-        count[s] += 1.0
-        points[s, NEAREST, 0] += (x - points[s, NEAREST, 0]) / count[s]
-        points[s, NEAREST, 1] += (y - points[s, NEAREST, 1]) / count[s]
+        if behind <= 0.0:
+            count[s] += 1.0
+            points[s, NEAREST, 0] += (x - points[s, NEAREST, 0]) / count[s]
+            points[s, NEAREST, 1] += (y - points[s, NEAREST, 1]) / count[s]
         if beside < ends[s, 0]:
             ends[s, 0], points[s, RIGHT, 0], points[s, RIGHT, 1] = beside, x, y
         if beside > ends[s, 1]:
@@ -195,9 +264,9 @@ def follows(sectors, points, s, narrow):
 def off_chord(line, a, b, k):
     """Distance of point k of a line from its chord from point a to b."""
     dx, dy = line[b, 0] - line[a, 0], line[b, 1] - line[a, 1]
-    length = math.hypot(dx, dy)
     px, py = line[k, 0] - line[a, 0], line[k, 1] - line[a, 1]
-    return abs(dx * py - dy * px) / length if length > 0.0 else math.hypot(px, py)
+    along = min(max((px * dx + py * dy) / max(dx * dx + dy * dy, 1e-300), 0.0), 1.0)
+    return math.hypot(px - along * dx, py - along * dy)
 
 
 @kernel
