@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.ground.terrain import Box, Flat
 from gaitwright.model.camera import Camera
+from gaitwright.perception.edge_runs import SECTORS, kept_points
 from gaitwright.perception.elevation_map import ElevationMap, fused
-from gaitwright.perception.walls import SECTORS, kept_points, sight_of
+from gaitwright.perception.walls import sight_of
 from gaitwright.plant.eyes import Eyes
 from gaitwright.signals import Sight
 from oracles import robot_called
