@@ -1,4 +1,4 @@
-"""Where a camera looks from, and maps of scenes that a robot has walked through: for tests of eyes and maps."""
+"""Where a camera looks from, and maps of scenes that a robot has walked through."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""The elevation map: it holds what was hit, where and how sure; it rolls, forgets, unlearns and believes feet."""
+"""The elevation map holds what was hit, where and how sure; it rolls, forgets, unlearns and believes feet."""
 
 import math
 from dataclasses import replace
@@ -96,7 +96,9 @@ def test_the_window_rolls_with_the_robot_and_forgets_what_it_leaves(moves):
     cells = rng.uniform(0.1, 1.0, EMPTY.cells.shape).astype(np.float32)
     seen = replace(EMPTY, cells=cells)
     model = {
-        (r + seen.first[0], c + seen.first[1]): seen.cells[(r + seen.first[0]) % seen.n, (c + seen.first[1]) % seen.n]
+        (r + seen.first[0], c + seen.first[1]): seen.cells[
+            (r + seen.first[0]) % seen.n, (c + seen.first[1]) % seen.n
+        ]
         for r in range(0, seen.n, 7)
         for c in range(0, seen.n, 7)
     }
@@ -228,8 +230,8 @@ def test_at_the_start_the_ground_is_what_the_feet_stand_on():
     x, y = seen.places()
     known = seen.known
     np.testing.assert_allclose(seen.heights[known], scene.height(x[None, :], y[:, None])[known], atol=2e-3)
-    for foot in feet:
-        assert at(seen, foot[0], foot[1])[VARIANCE] < math.inf
+    for x_foot, y_foot in feet[:, :2]:
+        assert at(seen, x_foot, y_foot)[VARIANCE] < math.inf
     assert not known[:, x > feet[:, 0].max() + 1.1 * DOG.height].any()
     # A look replaces what was only supposed.
     box = Scene("box", Flat(), (Box(0.6, 0.0, 0.0, 0.3, 1.0, 0.05),))

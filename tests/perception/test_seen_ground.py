@@ -1,4 +1,4 @@
-"""The ground that was seen, as feet and scanner read it: as the known one where all was seen, harmless where not."""
+"""The seen ground, for feet and scanner: as the known one where all was seen, harmless where not."""
 
 from dataclasses import replace
 

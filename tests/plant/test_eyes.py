@@ -91,7 +91,9 @@ def test_a_scene_larger_than_memory_is_drawn_around_the_robot_as_it_walks():
     ranges = eyes.see(posed(DOG, far, (80.0, 0.0))).ranges
     assert eyes.relief is not first
     small = replace(far, bounds=(76.0, -4.0, 84.0, 4.0))
-    np.testing.assert_allclose(ranges, Eyes(CAMERA, small).see(posed(DOG, far, (80.0, 0.0))).ranges, atol=0.03)
+    np.testing.assert_allclose(
+        ranges, Eyes(CAMERA, small).see(posed(DOG, far, (80.0, 0.0))).ranges, atol=0.03
+    )
 
 
 def test_another_arrangement_is_seen_at_once():

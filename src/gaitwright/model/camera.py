@@ -96,7 +96,7 @@ class Camera:
 
     @cached_property
     def lens(self) -> tuple[float, float, float]:
-        """Half the width and half the height of what it sees at a distance of one metre, and its range [m]."""
+        """Half the width and height of what it sees at a distance of one metre, and its range [m]."""
         return math.tan(self.across / 2), math.tan(self.upright / 2), self.range
 
     @cached_property

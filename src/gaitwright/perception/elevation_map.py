@@ -1,7 +1,8 @@
 """ElevationMap + DepthFrame + where the camera was → ElevationMap: the ground around a robot, as it was seen.
 
-A square grid rolls with the robot. Each cell holds a height with its variance, the lowest and the highest that
-was seen in it, and when; what nobody saw or felt is unknown. Maps are values: who learns more makes a new one.
+A square grid rolls with the robot. Each cell holds a height with its variance, the lowest and the highest
+that was seen in it, and when; what nobody saw or felt is unknown. Maps are values: who learns more makes a
+new one.
 """
 
 import math
@@ -37,7 +38,7 @@ class ElevationMap:
     height: float
     """Of the robot's body [m]: in it is said what is sudden, narrow or near."""
     first: tuple[int, int]
-    """Row and column of the window's lowest cell in the world's lattice, whose cell (0, 0) is around x = y = 0."""
+    """Row and column of the window's lowest cell in the world's lattice, whose cell 0, 0 is around 0, 0."""
     cells: Float32[np.ndarray, "n n 5"]
     """Height [m], variance [m²], lowest and highest seen [m], time [s]; row r at r mod n (`fusing`)."""
     keep: float = math.inf

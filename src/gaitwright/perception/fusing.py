@@ -1,8 +1,8 @@
-"""The kernels of the elevation map: its window rolls, cells looked through are weakened, cells hit are updated.
+"""The kernels of the elevation map: its window rolls, cells seen through are weakened, cells hit updated.
 
-A cell's height is a Kalman filter's (Fankhauser et al. 2014): what lies higher than it can be replaces it, what
-lies lower is kept as the lowest seen, so a cell with an edge in it holds both. Its variance is its trust as
-well: rays that go through it make it worse, until what is remembered there is given up.
+A cell's height is a Kalman filter's (Fankhauser et al. 2014): what lies higher than it can be replaces it,
+what lies lower is kept as the lowest seen, so a cell with an edge in it holds both. Its variance is its trust
+as well: rays that go through it make it worse, until what is remembered there is given up.
 """
 
 import math
@@ -25,8 +25,8 @@ WORSE = 2.0
 LOST = 2.0
 """A cell of more variance than this, in those of one look, is given up."""
 BENEATH = 0.75
-"""A cell is looked through where the camera sees past it this far under its height, in cells; the pixel is chosen
-twice as far under it and half a pixel, so that its ray lies there for sure."""
+"""A cell is looked through where the camera sees past it this far under its height, in cells; the pixel is
+chosen twice as far under it and half a pixel, so that its ray lies there for sure."""
 
 
 @kernel
@@ -167,7 +167,7 @@ def fuse(cells, old, new, spacing, eye, R_wc, rays, ranges, lens, noise, now, ke
 
 @kernel
 def feel(cells, first, spacing, places, radius, variance, now):
-    """What feet rest on, `(feet, 3)` world [m]: the highest thing under each within `radius` is at its height.
+    """What feet rest on, `(feet, 3)` world [m]: the highest thing within `radius` of each is as high as it.
 
     What was seen higher is brought down to it; where all was seen lower, or nothing, all is brought up.
     """

@@ -1,8 +1,8 @@
 """ElevationMap → what feet and eyes read: an `ElevationGrid`, and an `Elevation`.
 
-What is unknown must do no harm. No foot stands there: to feet it is an edge. Its height is that of the nearest
-known place, so that a swing over it lifts the foot no more than its surroundings ask, a shank finds room, and
-nothing looks like a step or a hole that nobody saw. Eyes are told NaN.
+What is unknown must do no harm. No foot stands there: to feet it is an edge. Its height is that of the
+nearest known place, so that a swing over it lifts the foot no more than its surroundings ask, a shank finds
+room, and nothing looks like a step or a hole that nobody saw. Eyes are told NaN.
 """
 
 import math
@@ -20,8 +20,8 @@ from gaitwright.perception.fusing import HEIGHT, HIGH, LOW, VARIANCE, slot
 from gaitwright.signals import ElevationGrid
 
 BRIDGED = 2
-"""So many unknown cells between two that lie level with each other are ground like them: rays leave such gaps,
-and they are narrower than a foot."""
+"""So many unknown cells between two that lie level with each other are ground like them: rays leave such
+gaps, and they are narrower than a foot."""
 
 FAR = 1_000_000
 """Cells away: there is none."""
@@ -105,7 +105,7 @@ def fill(heights, known, edge):
             north[v] += 1
             east += 1
             w, s = west[u, v], south[u, v]
-            near = min(min(w, east), min(s, north[v]))
+            near = min(w, east, s, north[v])
             if near >= FAR:
                 heights[u, v] = math.nan
                 continue
