@@ -351,3 +351,32 @@ def test_a_map_is_a_value() -> None:
     learned.seen(sight([(0.5, 3.0, 5.5, 3.0)], free=[(2.0, 2.0), (4.0, 2.0), (4.0, 4.0)]))
     learned.walked([START, GOAL])
     assert len(learned.rows) == 0 and not learned.raster.cells.any() and learned.trips == ()
+
+
+# --- the thesis's own rule -----------------------------------------------------------------------------
+@pytest.mark.parametrize("seed", range(6))
+def test_the_thesis_rule_arrives_too_and_keeps_its_way(seed: int) -> None:
+    polygons = random_world(seed)
+    edges, best = walled(polygons), LearnedMap.of_polygons(BOUNDS, RADIUS, polygons).way(START, GOAL)
+    learned, places, lengths = empty(strategy="thesis"), (START, GOAL), []
+    for _ in range(3):
+        trip = walk(edges, learned, *places, view=NARROW)
+        learned, places = trip.learned, places[::-1]
+        assert trip.arrived == (best is not None)
+        assert clearance_of(edges, trip.walked) >= RADIUS - TOUCH
+        if not trip.arrived:
+            return
+        lengths.append(trip.length)
+        assert trip.length >= best.length * 0.999
+    assert lengths[1] <= lengths[0] + 0.05 and lengths[2] <= lengths[1] + 0.05
+
+
+def test_by_the_thesis_rule_an_edge_is_gone_along_to_its_end() -> None:
+    """By hand: a wall across the way, its nearer end is gone to first, then the goal."""
+    wall = [box_at(3.0, 2.5, 0.1, 3.0)]
+    start, goal = (1.0, 3.0), (5.0, 3.0)
+    learned = empty(strategy="thesis").seen(look(walled(wall), start, reach=4.0))
+    way = learned.way(start, goal)
+    assert way.path[-1] == goal and not way.is_walked
+    assert all(y > 4.0 for _, y in way.path[:-1])
+    assert way.length >= way.optimistic
