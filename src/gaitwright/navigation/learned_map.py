@@ -28,7 +28,7 @@ Path = Sequence[Point] | Float[np.ndarray, "n 2"]
 """Points of a path [m]."""
 STRATEGIES = ("optimistic", "thesis")
 """How a way is chosen where the map is blank."""
-TOUCHED, BESIDE = 0.01, 0.15
+TOUCHED, BESIDE = 1e-3, 0.15
 """What was touched is there to this length to either side, and supposed to go on to that [m]."""
 
 
@@ -141,10 +141,11 @@ class LearnedMap:
         return best_way(road_map, self.raster, start, goal)
 
     def is_cut(self, path: Path) -> bool:
-        """Whether what is known now comes within r of a path [m], and nearer than to its beginning, where the
-        robot stands."""
-        room = self.radius - 2.0 * self.noise - CHECK
-        return is_path_cut(self.pieces, path, room) or is_path_cut(fence(self.bounds), path, room)
+        """Whether what is known for sure comes within r of a path [m], and nearer than to its beginning, where
+        the robot stands (`way` may go through what is only supposed, and leaves what is deep within it)."""
+        sure = self.pieces[self.rows[:, KIND] != SUPPOSED]
+        room, deep = self.radius - 2.0 * self.noise - CHECK, DEEP * self.radius
+        return is_path_cut(sure, path, room, deep) or is_path_cut(fence(self.bounds), path, room, deep)
 
     @property
     def pieces(self) -> Float[np.ndarray, "n 4"]:

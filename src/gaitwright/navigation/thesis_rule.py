@@ -1,8 +1,8 @@
 """The thesis's own rule (6.2): over the map where it is known, along the obstacles' edges where it is blank.
 
 The text says: go towards the goal until an obstacle is faced; go to a vertex of the edge that is faced; go on
-from there in the same way; where the map is known take the shortest path on it. Read into it was: of an edge's
-two ends the one with the shorter way round is taken, but one that the robot goes alongside is not turned back
+from there in the same way; where the map is known take the shortest path on it. Read into it was: of an
+edge's two ends the one with the shorter way round is taken, but one that the robot goes alongside is not turned back
 on; vertices where this trip has been are left out; where both ends are, the nearest other vertex comes next
 (depth first); the whole course over what is known now is said at once; and what ends is the search, not the
 walk: where no way is left even if all that is unknown were free, there is none.
@@ -130,7 +130,7 @@ def leg_on(
     nodes: Int[np.ndarray, " k"],
     first: bool = False,
 ) -> list[Point] | None:
-    """Points of the way to that one of some nodes over which the way to the goal seems the shortest, or to the
+    """Points of the way to that one of some nodes over which the way to the goal seems shortest, or to the
     `first` that there is a way to."""
     best, leg = math.inf, None
     for x, y in road_map.roads.nodes.at[nodes, :2].tolist():
