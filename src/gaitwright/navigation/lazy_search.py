@@ -19,6 +19,18 @@ FULL = -2.0
 """Instead of a length: there was no room for links."""
 NONE = -1.0
 """Instead of a length: there is no way."""
+OPEN = 0.0
+"""Instead of a length: it is not known yet."""
+FIRST_CHECK = 512
+"""So many states on, and at each doubling, it is asked whether the goal is shut in."""
+PORTION, HAIR = 1.1, 1e-3
+"""A source queues links that promise up to so many times what it promised before, and so much more [m]."""
+
+
+@kernel
+def length(x, y):
+    """Of a vector: quicker than `math.hypot`."""
+    return math.sqrt(x * x + y * y)
 
 
 @kernel
@@ -32,10 +44,10 @@ def search(roads, sources, ignored, goal, most, place, cells):
     states = len(roads.found)
     goal_state = states + len(sources)
     best, parent = np.full(goal_state + 1, np.inf), np.full(goal_state + 1, -1)
-    closed = np.zeros(goal_state + 1, np.bool_)
+    closed, gone_on, check = np.zeros(goal_state + 1, np.bool_), 0, FIRST_CHECK
     heap, links, count = np.empty(1024), np.empty((1024, 2), np.int64), 0
     for k in range(len(sources)):
-        far = math.hypot(goal[0] - sources[k, 0], goal[1] - sources[k, 1])
+        far = length(goal[0] - sources[k, 0], goal[1] - sources[k, 1])
         heap, links, count = push(heap, links, count, sources[k, 2] + far, states + k, states + k)
         best[states + k] = sources[k, 2]
     while count:
@@ -43,25 +55,73 @@ def search(roads, sources, ignored, goal, most, place, cells):
         count = pop(heap, links, count)
         if f > most:
             break
+        if u == v:
+            heap, links, count = set_out(roads, sources, goal, (v, f, closed[v]), best, heap, links, count)
+            closed[v] = True
+            continue
         if closed[v]:
             continue
-        if u != v:
-            ax, ay = point_of(roads, sources, goal, u)
-            bx, by = point_of(roads, sources, goal, v)
-            if not stands(roads, (u, v, states), (ax, ay, bx, by), ignored, place, cells):
-                continue
-            parent[v], best[v] = u, best[u] + math.hypot(bx - ax, by - ay)
-        closed[v] = True
+        ax, ay = point_of(roads, sources, goal, u)
+        bx, by = point_of(roads, sources, goal, v)
+        if not stands(roads, (u, v, states), (ax, ay, bx, by), ignored, place, cells):
+            continue
+        parent[v], best[v], closed[v] = u, best[u] + length(bx - ax, by - ay), True
         if v == goal_state:
             return best[v], trace(roads, sources, goal, parent)
-        if v < states:
-            if roads.found[v, 0] < 0 and not find_links(roads, v):
-                return FULL, np.empty((0, 2))
-            believes = cells.size == 0  # a link that was found stands
-            heap, links, count = go_on(roads, goal, v, best, believes, heap, links, count, goal_state)
-        else:
-            heap, links, count = set_out(roads, sources, goal, v, best, heap, links, count)
+        if roads.found[v, 0] < 0 and not find_links(roads, v):
+            return FULL, np.empty((0, 2))
+        believes = cells.size == 0  # a link that was found stands
+        heap, links, count = go_on(roads, goal, v, best, believes, heap, links, count, goal_state)
+        gone_on += 1
+        if gone_on == check and most == np.inf:
+            check *= 2
+            answer = shut_in(roads, sources, ignored, goal, closed, gone_on // 8)
+            if answer != OPEN:
+                return answer, np.empty((0, 2))
     return NONE, np.empty((0, 2))
+
+
+@kernel
+def shut_in(roads, sources, ignored, goal, closed, most):
+    """`NONE` if whatever leads to the goal is no more than `most` states and none is reached from a source;
+    `OPEN` if it is more or reached; `FULL` without room for links. A way to the goal is one back from it.
+    """
+    states, room = len(roads.found), roads.radius - LINK
+    reached, todo, count = np.zeros(states, np.bool_), np.empty(states, np.int64), 0
+    for k in range(len(roads.nodes.at)):
+        x, y = roads.nodes.at[k, 0], roads.nodes.at[k, 1]
+        on = way_round(roads.nodes.at[k], x - goal[0], y - goal[1], roads.nodes.lean[k])
+        if on >= 0 and is_free(roads.grid, goal[0], goal[1], x, y, room):
+            todo[count], reached[2 * k + on], count = 2 * k + on, True, count + 1
+    done = 0
+    while done < count:
+        state, done = todo[done], done + 1
+        if closed[state ^ 1] or done > most:
+            return OPEN
+        if roads.found[state, 0] < 0 and not find_links(roads, state):
+            return FULL
+        begin = roads.found[state, 0]
+        for on in roads.targets[begin : begin + roads.found[state, 1]]:
+            if not reached[on]:
+                todo[count], reached[on], count = on, True, count + 1
+    for state in todo[:count]:
+        if is_met(roads, sources, ignored, state ^ 1):
+            return OPEN
+    return NONE
+
+
+@kernel
+def is_met(roads, sources, ignored, state):
+    """Whether a straight line from a source leads to a state."""
+    node, lean, room = roads.nodes.at[state // 2], roads.nodes.lean[state // 2], roads.radius - LINK
+    for k in range(len(sources)):
+        x, y = sources[k, 0], sources[k, 1]
+        if way_round(node, node[0] - x, node[1] - y, lean) == state % 2:
+            if k == 0 and leaves(roads.grid, x, y, node[0], node[1], room, ignored):
+                return True
+            if k > 0 and is_free(roads.grid, x, y, node[0], node[1], room):
+                return True
+    return False
 
 
 @kernel
@@ -83,34 +143,45 @@ def go_on(roads, goal, u, best, believes, heap, links, count, goal_state):
     at, node = roads.nodes.at, roads.nodes.at[u // 2]
     dx, dy = goal[0] - node[0], goal[1] - node[1]
     if way_round(node, dx, dy, roads.nodes.lean[u // 2]) == u % 2:
-        heap, links, count = push(heap, links, count, best[u] + math.hypot(dx, dy), u, goal_state)
+        heap, links, count = push(heap, links, count, best[u] + length(dx, dy), u, goal_state)
     begin = roads.found[u, 0]
     for n in range(begin, begin + roads.found[u, 1]):
         v = roads.targets[n]
         x, y = at[v // 2, 0], at[v // 2, 1]
-        cost = best[u] + math.hypot(x - node[0], y - node[1])
+        cost = best[u] + length(x - node[0], y - node[1])
         if cost < best[v]:
             if believes:
                 best[v] = cost
-            f = cost + math.hypot(goal[0] - x, goal[1] - y)
+            f = cost + length(goal[0] - x, goal[1] - y)
             heap, links, count = push(heap, links, count, f, u, v)
     return heap, links, count
 
 
 @kernel
-def set_out(roads, sources, goal, u, best, heap, links, count):
-    """Queues the straight lines from a source to all nodes, and to the goal."""
+def set_out(roads, sources, goal, source, best, heap, links, count):
+    """Queues the straight lines from a source to the goal and to all nodes, those that promise most first:
+    the source is queued again for the others. `source`: its state, what it promised, whether it was here."""
     at, lean, states = roads.nodes.at, roads.nodes.lean, len(roads.found)
+    u, low, again = source
+    high = PORTION * low + HAIR
     x, y = sources[u - states, 0], sources[u - states, 1]
-    f = best[u] + math.hypot(goal[0] - x, goal[1] - y)
-    heap, links, count = push(heap, links, count, f, u, states + len(sources))
+    if not again:
+        heap, links, count = push(heap, links, count, low, u, states + len(sources))
+        low = -1.0
+    more = False
     for k in range(len(at)):
         dx, dy = at[k, 0] - x, at[k, 1] - y
         on = way_round(at[k], dx, dy, lean[k])
-        cost = best[u] + math.hypot(dx, dy)
-        if on >= 0 and cost < best[2 * k + on]:
-            f = cost + math.hypot(goal[0] - at[k, 0], goal[1] - at[k, 1])
-            heap, links, count = push(heap, links, count, f, u, 2 * k + on)
+        if on < 0:
+            continue
+        cost = best[u] + length(dx, dy)
+        if cost < best[2 * k + on]:
+            f = cost + length(goal[0] - at[k, 0], goal[1] - at[k, 1])
+            if low < f <= high:
+                heap, links, count = push(heap, links, count, f, u, 2 * k + on)
+            more = more or f > high
+    if more:
+        heap, links, count = push(heap, links, count, high, u, u)
     return heap, links, count
 
 

@@ -19,15 +19,16 @@ from gaitwright.navigation.piece_rows import CORNERS, FELT, KIND, SUPPOSED, Rows
 from gaitwright.navigation.planning import Point, Way, best_way
 from gaitwright.navigation.raster import Raster, blank, with_sight, with_way
 from gaitwright.navigation.roads import Bounds, RoadMap, fence
-from gaitwright.signals import Sight
+from gaitwright.navigation.thesis_rule import thesis_way
 from gaitwright.navigation.tolerances import CHECK, DEEP, TOUCH
 from gaitwright.navigation.unlearning import unlearned
+from gaitwright.signals import Sight
 
 Path = Sequence[Point] | Float[np.ndarray, "n 2"]
 """Points of a path [m]."""
 STRATEGIES = ("optimistic", "thesis")
 """How a way is chosen where the map is blank."""
-TOUCHED, BESIDE = 0.01, 0.15
+TOUCHED, BESIDE = 1e-3, 0.15
 """What was touched is there to this length to either side, and supposed to go on to that [m]."""
 
 
@@ -46,6 +47,8 @@ class LearnedMap:
     raster: Raster
     trips: tuple[tuple[Point, ...], ...] = ()
     """Ways that were walked."""
+    trail: tuple[Point, ...] = ()
+    """Where the thesis's rule has looked from in this trip."""
 
     # --- made -----------------------------------------------------------------------------------
     @classmethod
@@ -80,7 +83,8 @@ class LearnedMap:
         require_finite(sight.pieces, sight.free)
         rows = unlearned(self.rows, sight.free, self.noise)
         rows = joined_rows(rows, rows_of(sight.pieces, sight.corners), self.noise)
-        return replace(self, rows=rows, raster=with_sight(self.raster, sight.free))
+        trail = (*self.trail, sight.eye) if self.strategy == "thesis" else ()
+        return replace(self, rows=rows, raster=with_sight(self.raster, sight.free), trail=trail)
 
     def felt(self, place: Point, direction: float) -> "LearnedMap":
         """With a contact of a disc that stands at `place` [m], on its rim in a world direction [rad]: there
@@ -103,7 +107,7 @@ class LearnedMap:
             return self
         rows = self.rows[~crossed(self.rows, np.array(points), DEEP * self.radius)]
         raster = with_way(self.raster, points, self.radius)
-        return replace(self, rows=rows, raster=raster, trips=(*self.trips, tuple(points)))
+        return replace(self, rows=rows, raster=raster, trips=(*self.trips, tuple(points)), trail=())
 
     def joined(self, other: "LearnedMap") -> "LearnedMap":
         """With what another map of the same field knows: what either holds is held, and what is gone will be
@@ -125,16 +129,23 @@ class LearnedMap:
         what is only supposed, and where pieces are noisy for a disc narrower by twice the noise.
         """
         require_finite(np.array([*start, *goal]))
-        way = best_way(self.road_map, self.raster, start, goal)
+        way = self.way_over(self.road_map, start, goal)
         if way is None and (self.noise > 0.0 or (self.rows[:, KIND] == SUPPOSED).any()):
-            return best_way(self.sure_road_map, self.raster, start, goal)
+            return self.way_over(self.sure_road_map, start, goal)
         return way
 
+    def way_over(self, road_map: RoadMap, start: Point, goal: Point) -> Way | None:
+        """The way to take over some roads, by the map's strategy."""
+        if self.strategy == "thesis":
+            return thesis_way(road_map, self.raster, self.trail, start, goal)
+        return best_way(road_map, self.raster, start, goal)
+
     def is_cut(self, path: Path) -> bool:
-        """Whether what is known now comes within r of a path [m], and nearer than to its beginning, where the
-        robot stands."""
-        room = self.radius - 2.0 * self.noise - CHECK
-        return is_path_cut(self.pieces, path, room) or is_path_cut(fence(self.bounds), path, room)
+        """Whether what is known for sure comes within r of a path [m], and nearer than to its beginning, where
+        the robot stands (`way` may go through what is only supposed, and leaves what is deep within it)."""
+        sure = self.pieces[self.rows[:, KIND] != SUPPOSED]
+        room, deep = self.radius - 2.0 * self.noise - CHECK, DEEP * self.radius
+        return is_path_cut(sure, path, room, deep) or is_path_cut(fence(self.bounds), path, room, deep)
 
     @property
     def pieces(self) -> Float[np.ndarray, "n 4"]:

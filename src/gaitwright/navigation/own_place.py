@@ -9,15 +9,14 @@ from gaitwright.navigation.piece_grid import PieceGrid, cell_of, clearance, leav
 from gaitwright.navigation.tolerances import HALF_STEP, LINK, NODE
 from gaitwright.numerics.compiled import kernel
 
+Point = tuple[float, float]
 STEPS = (0.0625, 0.125, 0.25, 0.5, 1.0, 2.0)
 """How far it may step aside, in radii: the first step that gets it clear counts."""
 DIRECTIONS = 12
 """In so many directions."""
 
 
-def sources(
-    grid: PieceGrid, start: tuple[float, float], radius: float, ignored: float
-) -> Float[np.ndarray, "k 3"]:
+def sources(grid: PieceGrid, start: Point, radius: float, ignored: float) -> Float[np.ndarray, "k 3"]:
     """Places to set out from: x, y [m] and what it costs to come there [m]; the first is the start.
 
     There are others only where the start is too near to something, or too near to a corner for the polygon on

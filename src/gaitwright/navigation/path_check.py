@@ -13,10 +13,11 @@ Pieces = Float[np.ndarray, "n _"]
 
 
 def is_path_cut(
-    pieces: Pieces, path: Sequence[tuple[float, float]] | Float[np.ndarray, "m 2"], room: float
+    pieces: Pieces, path: Sequence[tuple[float, float]] | Float[np.ndarray, "m 2"], room: float, deep: float
 ) -> bool:
-    """Whether a piece comes nearer than `room` [m] to a path, and nearer than to its beginning."""
-    return bool(is_cut(pieces, np.array(path, dtype=float).reshape(-1, 2), room))
+    """Whether a piece comes nearer than `room` [m] to a path, and nearer than to its beginning; what is nearer than
+    `deep` to the beginning does not count on the first leg."""
+    return bool(is_cut(pieces, np.array(path, dtype=float).reshape(-1, 2), room, deep))
 
 
 def crossed(pieces: Pieces, path: Float[np.ndarray, "m 2"], room: float) -> Bool[np.ndarray, " n"]:
@@ -25,7 +26,7 @@ def crossed(pieces: Pieces, path: Float[np.ndarray, "m 2"], room: float) -> Bool
 
 
 @kernel
-def is_cut(pieces, path, room):
+def is_cut(pieces, path, room, deep):
     for p in range(len(pieces)):
         piece = (pieces[p, 0], pieces[p, 1], pieces[p, 2], pieces[p, 3])
         for k in range(max(len(path) - 1, 1)):
@@ -36,7 +37,7 @@ def is_cut(pieces, path, room):
             least = lines_apart2(leg, piece)
             if least < room * room:
                 own = math.sqrt(point_apart2(path[0, 0], path[0, 1], piece)) if k == 0 else room
-                if math.sqrt(least) < min(room, own - 1e-7):
+                if own >= deep and math.sqrt(least) < min(room, own - 1e-7):
                     return True
     return False
 

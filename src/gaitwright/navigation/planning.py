@@ -6,14 +6,13 @@ from typing import NamedTuple
 import numpy as np
 
 from gaitwright.navigation.lazy_search import FULL, NONE, search
-from gaitwright.navigation.own_place import pulled, sources
+from gaitwright.navigation.own_place import Point, pulled, sources
 from gaitwright.navigation.piece_grid import clearance
 from gaitwright.navigation.raster import Raster, is_known
 from gaitwright.navigation.roads import RoadMap
 from gaitwright.navigation.tolerances import DEEP, LINK, WORTH
 from gaitwright.numerics.compiled import kernel
 
-Point = tuple[float, float]
 ANYWHERE = np.zeros((0, 0), dtype=bool)
 """For a search that is not kept to known ground."""
 

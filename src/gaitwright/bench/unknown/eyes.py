@@ -11,8 +11,8 @@ import numpy as np
 
 from gaitwright.bench.unknown.segments import point_to_piece
 from gaitwright.bench.unknown.world import Point, World
-from gaitwright.signals import Sight
 from gaitwright.numerics.compiled import kernel
+from gaitwright.signals import Sight
 
 SAME_ANGLE = 1e-7
 """No camera tells nearer directions apart [rad]: nothing is seen through a slit of 1 nm."""
