@@ -136,7 +136,7 @@ def by_every_pair(one: World) -> float:
     inside = solid.buffer(-1e-6, join_style="mitre")
     shapely.prepare(inside)
     pairs = np.array(list(combinations(range(len(points)), 2)))
-    lines = shapely.linestrings(points[pairs])
+    lines = np.asarray(shapely.linestrings(points[pairs]))
     free = ~shapely.intersects(inside, lines)
     around: dict[int, list[tuple[float, int]]] = {}
     for (a, b), long in zip(pairs[free].tolist(), shapely.length(lines[free]).tolist(), strict=True):
