@@ -21,7 +21,8 @@ NARROW = math.radians(3.0)
 
 def star(sight: Sight) -> shapely.Geometry:
     """The region seen to be free."""
-    return shapely.make_valid(shapely.Polygon(sight.free))
+    parts = shapely.get_parts(shapely.make_valid(shapely.Polygon(sight.free)))
+    return shapely.union_all([part for part in parts if part.area > 0.0])  # slits of rounding are lines
 
 
 def ray(world: World, eye: Point, angle: float, reach: float) -> float:
