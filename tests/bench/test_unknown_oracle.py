@@ -47,6 +47,8 @@ def test_a_world_is_what_it_is_called(number: int) -> None:
     one = world(5, number)
     assert min(one.clearance(one.start), one.clearance(one.goal)) >= FREE
     assert math.dist(one.start, one.goal) >= APART
+    shapes = np.array(one.obstacles)
+    np.testing.assert_allclose(shapely.area(shapely.convex_hull(shapes)), shapely.area(shapes), rtol=1e-9)
     said = truth(one)
     if one.gap is None:
         assert said == {"open": "way", "walled": "none"}[one.kind]
@@ -100,6 +102,15 @@ def test_boxes_that_touch_in_a_corner_shut_the_way() -> None:
     assert not has_way(made(stairs, (3.0, 15.0), (15.0, 3.0)), 0.01)
 
 
+@pytest.mark.parametrize("quarter", [QUARTER, 64])
+def test_chords_lie_within_the_true_circles_and_tangents_around_them(quarter: int) -> None:
+    one = made(boxes_by_lot(1, 20))
+    within = shapely.points(shapely.get_coordinates(grown(one, RADIUS, quarter).boundary))
+    assert shapely.distance(within, one.solid).max() <= RADIUS + 1e-9
+    around = grown(one, RADIUS / math.cos(math.pi / (4.0 * quarter)), quarter)
+    assert shapely.distance(around.boundary, one.solid) >= RADIUS - 1e-9
+
+
 # --- optimum ---------------------------------------------------------------------------------------
 def test_the_optimum_of_an_empty_field_is_straight() -> None:
     assert optimum(made([])) == pytest.approx((16.0, 16.0))
@@ -136,7 +147,7 @@ def by_every_pair(one: World) -> float:
     inside = solid.buffer(-1e-6, join_style="mitre")
     shapely.prepare(inside)
     pairs = np.array(list(combinations(range(len(points)), 2)))
-    lines = shapely.linestrings(points[pairs])
+    lines = np.asarray(shapely.linestrings(points[pairs]))
     free = ~shapely.intersects(inside, lines)
     around: dict[int, list[tuple[float, int]]] = {}
     for (a, b), long in zip(pairs[free].tolist(), shapely.length(lines[free]).tolist(), strict=True):

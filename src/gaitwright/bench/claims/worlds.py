@@ -4,6 +4,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
+from time import perf_counter
+
+import numpy as np
 
 from gaitwright.bench.context import Context
 from gaitwright.bench.measurement import Figure, at_most
@@ -17,11 +20,15 @@ from gaitwright.bench.unknown.contestants import (
     THESIS,
     is_there,
 )
+from gaitwright.bench.unknown.drawn import world
+from gaitwright.bench.unknown.eyes import Camera, look
 from gaitwright.bench.unknown.tours import Asked, Found, toured
 
 WORLDS, QUICK = 500, 40
 FEW = 60
 """Worlds with noise, and worlds in which things move."""
+SEEN, LOOKS = 10, 500
+"""The world in which looks are timed, and how many."""
 THESIS_EVERY = 4
 """The thesis's rule is tried in every so manyth world of each family: it goes far where there is no way."""
 NOTE = (
@@ -66,6 +73,7 @@ def measure(context: Context) -> Iterator[Figure]:
         yield from standings.planning(found, name, None)
     yield expansions(found)
     yield standings.certainty(found)
+    yield looks(context)
     yield drawn(context, everyone)
 
 
@@ -121,6 +129,18 @@ def expansions(found: Sequence[Found]) -> Figure:
     )
     what, note = f"{D_STAR}: nodes expanded over those of {A_STAR}", f"{mended} and {anew} over all trips"
     return Figure(what, mended / anew if anew else float("nan"), "×", None, len(both), note)
+
+
+def looks(context: Context) -> Figure:
+    """How long the simulated eye takes."""
+    here = world(context.seed, SEEN)
+    took = []
+    for turn in range(LOOKS):
+        began = perf_counter()
+        look(here, here.start, 0.1 * turn, Camera())
+        took.append(1e3 * (perf_counter() - began))
+    note = f"{len(here.edges)} edges, p99 {np.quantile(took, 0.99):.2g} ms"
+    return Figure("eyes: one look, median", float(np.median(took)), "ms", at_most(0.1), LOOKS, note)
 
 
 def drawn(context: Context, everyone: tuple[str, ...]) -> Figure:

@@ -223,4 +223,6 @@ def rim_of(near, starts, ends, which, place):
             if n == 0 or math.hypot(px - rim[n - 1, 0], py - rim[n - 1, 1]) > SAME_PLACE:
                 rim[n, 0], rim[n, 1] = px, py
                 n += 1
+    if math.hypot(rim[n - 1, 0] - rim[0, 0], rim[n - 1, 1] - rim[0, 1]) < SAME_PLACE:
+        n -= 1
     return rim[:n]

@@ -16,7 +16,10 @@ def has_way(world: World, radius: float, start: Point | None = None, goal: Point
 
 
 def grown(world: World, radius: float, quarter: int) -> shapely.Geometry:
-    """What a disc's centre cannot enter, less what chords cut off: corners lie on the true circles."""
+    """What a disc's centre cannot enter, less what chords cut off: corners lie on the true circles.
+
+    Of convex obstacles one by one: of others GEOS smooths hollows before it buffers.
+    """
     return shapely.union_all(shapely.buffer(list(world.obstacles), radius, quad_segs=quarter))
 
 

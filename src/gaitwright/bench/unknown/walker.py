@@ -25,7 +25,9 @@ FARTHEST = 3000.0
 MOST_CONTACTS, MOST_PLANS = 200, 20_000
 """A trip with more contacts or plans has failed."""
 HERE = 1e-9
-"""Places nearer to each other are one [m]."""
+"""Way-points nearer than this are passed [m]."""
+AT_GOAL = 1e-6
+"""It has arrived within this [m]."""
 ARRIVED, NONE, LOST = "arrived", "none", "lost"
 """How a trip ends; `lost` is one that came to no end within its bounds."""
 
@@ -147,7 +149,7 @@ class Walker:
                 end = NONE
             else:
                 self.follow(way)
-                if self.place == goal:
+                if math.dist(self.place, goal) < AT_GOAL:
                     end = ARRIVED
                 elif self.is_lost:
                     end = LOST

@@ -36,7 +36,7 @@ class World:
     kind: str
     """open, walled (start or goal is shut in), gap (one narrow gap decides)."""
     obstacles: tuple[Polygon, ...]
-    """They may touch, overlap, and stand 1 nm apart; the wall around the square is among them."""
+    """Convex; they may touch, overlap, and stand 1 nm apart; the wall around the square is among them."""
     start: Point
     goal: Point
     gap: float | None = None
