@@ -58,7 +58,7 @@ def relief_of(holes: Sequence[Hole]) -> Relief:
     return Relief.of([Prism(hole.outline, hole.depth) for hole in holes], [0.0] * len(holes))
 
 
-def depth_at(holes: Relief, x: Number, y: Number) -> Float[np.ndarray, "..."]:
+def depth_at(holes: Relief, x: Number, y: Number) -> Number:
     """How deep under the ground the floor lies [m]: zero beside the holes."""
     return np.maximum(holes.tops(x, y), 0.0)
 

@@ -67,7 +67,7 @@ class Scene(Surface):
         on_solid = np.asarray(top[..., 0] >= self.surface.height(x, y))
         return np.where(on_solid[..., None], upward(top[..., 1], top[..., 2]), normal)
 
-    def friction_at(self, x: Number, y: Number) -> Float[np.ndarray, "..."]:
+    def friction_at(self, x: Number, y: Number) -> Number:
         """Coefficient of friction at a place [-]."""
         if not self.patches:
             return np.full(np.broadcast(x, y).shape, self.friction)
