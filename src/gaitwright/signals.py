@@ -147,7 +147,7 @@ class GroundMap:
     friction: float = GRIP
     """Coefficient of friction that feet count on until they slip [-]."""
     sight: Sight | None = None
-    """What the newest look showed; `None` for a map that is full from the start, and before the first look."""
+    """What the newest look showed; `None` in a map that is full from the start, and before any look."""
 
 
 @dataclass(frozen=True, slots=True)
