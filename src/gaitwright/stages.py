@@ -43,6 +43,10 @@ class Perception(Protocol):
         """What the ground ahead is like; `None` where nobody looks."""
         ...
 
+    def told(self, scene: Any, robot: Any) -> "Perception":
+        """The same of a world (`ground.scene.Scene`) that was arranged anew, as far as it is told."""
+        ...
+
 
 @runtime_checkable
 class Navigation(Protocol):

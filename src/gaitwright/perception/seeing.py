@@ -12,6 +12,7 @@ import numpy as np
 from jaxtyping import Float
 
 from gaitwright.ground.elevation import BLIND, SPACING
+from gaitwright.ground.scene import Scene
 from gaitwright.model.camera import Camera
 from gaitwright.model.kinematics import feet
 from gaitwright.model.robot import Robot
@@ -59,6 +60,10 @@ class SeeingGround:
         ground, scanner = GroundMap(bounds, (), None, BLIND, robot.step_limit), Scanner.of(robot)
         state = None if dt is None else EstimatedState(KnownGround(ground, scanner), robot, dt)
         return cls(robot, camera, ground, scanner, state)
+
+    def told(self, scene: Scene, robot: Robot) -> "SeeingGround":
+        """The same: of a world that was arranged anew it is told nothing, it will see."""
+        return self
 
     @property
     def noise(self) -> float:
