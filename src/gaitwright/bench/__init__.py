@@ -25,6 +25,7 @@ GROUPS = {
         "newcomers",
     ),
     "outside": ("strangers", "fuzz", "faults"),
+    "unknown": ("eyes",),
 }
 """Groups of claims, each claim the name of a module here, in the order in which they are measured."""
 
