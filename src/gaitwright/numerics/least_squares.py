@@ -27,7 +27,7 @@ class Fit(NamedTuple):
 def fit(
     residuals: Residuals, start: Float[np.ndarray, "numbers"], scale: Float[np.ndarray, "numbers"]
 ) -> Fit:
-    """Minimises the sum of squares of `residuals` from `start` on; `scale`: a noticeable change of a number."""
+    """Minimises the sum of squares of `residuals` from `start` on; `scale`: noticeable changes of numbers."""
     numbers, r = start.astype(float), residuals(start)
     damping = 1e-2
     for _ in range(STEPS):

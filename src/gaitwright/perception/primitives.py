@@ -2,8 +2,8 @@
 
 The thesis reduces what it meets to geometric primitives (5.4). Cells that rise above the ground and touch
 each other are one thing; every kind of primitive is fitted to their heights, and the one is taken that
-explains them best for its number of parameters. What none explains is an unknown shape. It is done on request,
-not in every frame: a thing takes some 100 ms.
+explains them best for its number of parameters. What none explains is an unknown shape. It is done on
+request, not in every frame: a thing takes some 100 ms.
 """
 
 import math
@@ -29,7 +29,7 @@ SKIRT = 3
 """Ground this many cells around a thing is fitted with it: it says where the thing ends."""
 MISFIT = 0.18
 """A thing is of an unknown shape if the best fit is off by more than this share of its height. Boxes and
-cylinders seen with 2 cm of noise are off by up to 0.17, crosses and angles by 0.18 to 0.3 whatever the noise."""
+cylinders seen with 2 cm of noise are off by up to 0.17, crosses and angles by 0.18 to 0.3 without any."""
 BARELY = 0.004
 """Residual below which no difference counts [m]: how the cells fall."""
 
@@ -65,14 +65,14 @@ class Patch(NamedTuple):
 
 def recognised(seen: ElevationMap) -> tuple[Primitive, ...]:
     """What stands on the ground that was seen, the largest first."""
-    over = np.where(seen.split, seen.layer(HIGH), seen.heights) - ground_plane(seen)
+    ground = ground_plane(seen)
+    over = np.where(seen.split, seen.layer(HIGH), seen.heights) - ground
     raised = seen.known & (over > seen.edge)
     labels = np.zeros(raised.shape, np.int64)
     count = label(raised, NEAR, labels)
-    x, y = seen.places()
     found = []
     for k in range(1, count + 1):
-        patch = patch_of(labels, k, over, seen, x, y)
+        patch = patch_of(labels, k, over, ground, seen)
         if patch is not None:
             found.append(best(patch))
     return tuple(sorted(found, key=lambda one: -one.cells))
@@ -98,12 +98,14 @@ def patch_of(
     labels: Int[np.ndarray, "rows columns"],
     k: int,
     over: Float[np.ndarray, "rows columns"],
+    ground: Float[np.ndarray, "rows columns"],
     seen: ElevationMap,
-    x: np.ndarray,
-    y: np.ndarray,
 ) -> Patch | None:
-    """The cells of thing `k` with a skirt of ground; `None` where they are too few."""
-    rows, columns = np.nonzero(labels == k)
+    """The cells of thing `k` with a skirt of ground; `None` where they are too few.
+
+    Things stand upright: on a slope, what is level stays so, over the ground in their middle.
+    """
+    (x, y), (rows, columns) = seen.places(), np.nonzero(labels == k)
     if len(rows) < FEWEST:
         return None
     row, column = max(rows.min() - SKIRT, 0), max(columns.min() - SKIRT, 0)
@@ -111,7 +113,8 @@ def patch_of(
     raised = labels[part] == k
     of_it = seen.known[part] & (raised | (labels[part] == 0))
     in_rows, in_columns = np.nonzero(of_it)
-    z = over[part][of_it].astype(float)
+    upright = over + ground - float(ground[rows, columns].mean())
+    z = np.where(raised, upright[part], over[part])[of_it].astype(float)
     z = np.where(raised[of_it], z, np.where(np.abs(z) <= seen.edge, z, 0.0))
     return Patch(x[column + in_columns], y[row + in_rows], z, raised[of_it], seen.spacing)
 
