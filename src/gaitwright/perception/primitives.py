@@ -209,7 +209,7 @@ def fitted(kind: str, patch: Patch) -> Fit:
 
     top = float(np.quantile(patch.z[patch.raised], 0.95))
     outline = shapely.MultiPoint(np.column_stack([patch.x, patch.y])[patch.raised]).buffer(0.5 * patch.cell)
-    (ax, ay), (bx, by), (cx, cy) = np.array(shapely.oriented_envelope(outline).exterior.coords)[:3]
+    (ax, ay), (bx, by), (cx, cy) = shapely.get_coordinates(shapely.oriented_envelope(outline))[:3]
     x, y, yaw = 0.5 * (ax + cx), 0.5 * (ay + cy), math.atan2(by - ay, bx - ax)
     lx, ly = math.hypot(bx - ax, by - ay), math.hypot(cx - bx, cy - by)
     if shape.names == ROUND:

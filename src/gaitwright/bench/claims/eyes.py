@@ -89,7 +89,8 @@ def crowd(boxes: int, seed: int) -> Scene:
         x, y = rng.uniform(-FIELD, FIELD, 2)
         if abs(y) >= STRIP:
             sides, height = rng.uniform(0.1, 0.5, 2), float(rng.choice([0.03, 0.06, 0.3, 0.45]))
-            blocks.append(Box(float(x), float(y), float(rng.uniform(-3.0, 3.0)), *map(float, sides), height))
+            yaw, (lx, ly) = float(rng.uniform(-3.0, 3.0)), map(float, sides)
+            blocks.append(Box(float(x), float(y), yaw, lx, ly, height))
     return Scene(f"{boxes} boxes", Flat(), tuple(blocks), (-FIELD, -FIELD, FIELD, FIELD))
 
 
@@ -159,10 +160,14 @@ def errors_of(taken: Walk, what: str, clean: bool) -> Iterator[Figure]:
     right = np.abs(seen.heights - low)[one] <= CENTIMETRE
     wanted = at_least(99.0) if clean else None
     note = f"{one.sum()} cells seen, {two.sum()} more with an edge in them"
-    yield Figure(f"{what}: cells of one height right to 1 cm", 100 * right.mean(), "%", wanted, 1, note)
+    yield Figure(
+        f"{what}: cells of one height right to 1 cm", 100 * float(right.mean()), "%", wanted, 1, note
+    )
     if clean:
         note = "of those with an edge in them: seen from one side only, they hold what was seen"
-        yield Figure(f"{what}: cells that hold two heights", 100 * seen.split[two].mean(), "%", None, 1, note)
+        yield Figure(
+            f"{what}: cells that hold two heights", 100 * float(seen.split[two].mean()), "%", None, 1, note
+        )
     yield walls_of(taken, what, clean)
 
 
@@ -171,7 +176,7 @@ def walls_of(taken: Walk, what: str, clean: bool) -> Figure:
     high = [shapely.Polygon(box.corners()) for box in taken.scene.obstacles(taken.robot.step_limit)]
     truth = shapely.union_all(high)
     pieces = np.concatenate([sight.pieces for sight in taken.sights]).reshape(-1, 2, 2)
-    ends = shapely.distance(truth, shapely.points(pieces.reshape(-1, 2)))
+    ends = np.asarray(shapely.distance(truth, shapely.points(pieces.reshape(-1, 2))))
     near = ends <= (0.5 if clean else 1.0) * taken.seen.spacing
     note = f"of {len(ends)}; farthest {100 * ends.max(initial=0.0):.1f} cm"
     unit, name = "%", f"ends of pieces of walls within {'half a' if clean else 'one'} cell of one"
@@ -198,9 +203,10 @@ def against_mujoco(taken: Walk, what: str) -> Iterator[Figure]:
     """The same rays by MuJoCo: how many end elsewhere, and what they cost."""
     plant, eyes = MujocoPlant(taken.robot, taken.scene), Eyes(taken.camera, taken.scene)
     measured, times = plant.reset(0, vary=False), []
+    frame = depth_frame(plant.world, taken.camera)
     for _ in range(9):
         began = thread_time_ns()
-        frame = depth_frame(plant.world, taken.camera)
+        depth_frame(plant.world, taken.camera)
         times.append((thread_time_ns() - began) / 1e6)
     ours = eyes.see(measured).ranges
     cell = float(eyes.relief.place[2])
