@@ -20,9 +20,10 @@ def posed(robot: Robot, scene: Scene, place, angles=(0.0, 0.0, 0.0), time: float
     return Sensed(time, position, turn, still, still, joints, joints, np.ones(robot.n))
 
 
-def footprints(robot: Robot, sensed: Sensed) -> np.ndarray:
-    """The lowest points of the feet of a robot that stands level, world [m]."""
-    return sensed.position_w + robot.nominal_feet - np.outer(robot.foot_radius, [0.0, 0.0, 1.0])
+def footprints(robot: Robot, scene: Scene, sensed: Sensed) -> np.ndarray:
+    """The lowest points of the feet of a robot that stands in a scene, world [m]."""
+    x, y, _ = (sensed.position_w + robot.nominal_feet).T
+    return np.column_stack([x, y, np.asarray(scene.height(x, y), dtype=float)])
 
 
 def crowd(boxes: int, seed: int = 0, half: float = 7.0) -> Scene:
@@ -44,7 +45,7 @@ def walked(
     """The map after a frame at each x of a walk that sways, the last frame, and where it was taken."""
     eyes, frame = Eyes(camera, scene, seed), None
     sensed = posed(robot, scene, (xs[0], y))
-    seen = standing(robot, sensed, footprints(robot, sensed))
+    seen = standing(robot, sensed, footprints(robot, scene, sensed))
     for k, x in enumerate(xs):
         angles = (0.02 * np.cos(2.3 * k), 0.03 * np.sin(1.7 * k), 0.1 * np.sin(0.3 * k))
         sensed = posed(robot, scene, (x, y), angles, 0.1 * k)

@@ -123,7 +123,7 @@ def test_maps_are_values():
     sensed = posed(DOG, scene, (0.0, 0.0))
     before = EMPTY.cells.copy()
     seen = fused(EMPTY, Eyes(CAMERA, scene).see(sensed), CAMERA, sensed)
-    felt(seen, footprints(DOG, sensed), 0.02, 0.0)
+    felt(seen, footprints(DOG, scene, sensed), 0.02, 0.0)
     np.testing.assert_array_equal(EMPTY.cells, before)
     assert seen.known.sum() > EMPTY.known.sum() == 0
 
@@ -224,19 +224,19 @@ def test_a_foot_that_agrees_changes_nothing_and_one_far_away_neither():
 def test_at_the_start_the_ground_is_what_the_feet_stand_on():
     scene = load_scene("slope:10")
     sensed = posed(DOG, scene, (0.0, 0.0))
-    feet = footprints(DOG, sensed)
-    feet[:, 2] = scene.height(feet[:, 0], feet[:, 1])
+    feet = footprints(DOG, scene, sensed)
     seen = standing(DOG, sensed, feet)
     x, y = seen.places()
     known = seen.known
-    np.testing.assert_allclose(seen.heights[known], scene.height(x[None, :], y[:, None])[known], atol=2e-3)
+    true = np.asarray(scene.height(x[None, :], y[:, None]))
+    np.testing.assert_allclose(seen.heights[known], true[known], atol=2e-3)
     for x_foot, y_foot in feet[:, :2]:
         assert at(seen, x_foot, y_foot)[VARIANCE] < math.inf
     assert not known[:, x > feet[:, 0].max() + 1.1 * DOG.height].any()
     # A look replaces what was only supposed.
     box = Scene("box", Flat(), (Box(0.6, 0.0, 0.0, 0.3, 1.0, 0.05),))
-    flat_feet = footprints(DOG, posed(DOG, box, (0.0, 0.0)))
-    supposed = standing(DOG, posed(DOG, box, (0.0, 0.0)), flat_feet)
+    sensed = posed(DOG, box, (0.0, 0.0))
+    supposed = standing(DOG, sensed, footprints(DOG, box, sensed))
     for k in range(3):
         now = posed(DOG, box, (-0.1 * k, 0.0))
         supposed = fused(supposed, Eyes(CAMERA, box).see(now, k), CAMERA, now)

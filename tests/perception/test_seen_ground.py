@@ -61,8 +61,7 @@ def test_where_all_was_seen_it_is_the_known_ground(name):
 def test_on_the_unknown_no_foot_stands_and_nothing_else_comes_of_it():
     scene = load_scene("slope:10")
     sensed = posed(DOG, scene, (0.0, 0.0))
-    feet = footprints(DOG, sensed)
-    feet[:, 2] = scene.height(feet[:, 0], feet[:, 1])
+    feet = footprints(DOG, scene, sensed)
     seen = standing(DOG, sensed, feet)
     grid = footholds_of(seen)
     np.testing.assert_array_equal(grid.edges, (~seen.known).astype(float))

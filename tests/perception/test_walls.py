@@ -50,7 +50,7 @@ def test_every_piece_is_on_an_obstacle_and_none_is_in_what_is_free(seed, x, boxe
     sight, truth = sight_at(scene, x), solid(scene)
     if len(sight.pieces):
         ends = shapely.points(sight.pieces.reshape(-1, 2))
-        assert shapely.distance(truth, ends).max() <= CELL
+        assert shapely.distance(truth, ends).max() <= 1.5 * CELL
         # Off it is only what joins two obstacles that leave no room for a robot between them.
         off = (shapely.distance(truth, along(sight)) > 0.75 * CELL).mean(axis=1)
         length = np.hypot(*(sight.pieces[:, 2:] - sight.pieces[:, :2]).T)

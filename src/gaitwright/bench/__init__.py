@@ -26,6 +26,7 @@ GROUPS = {
     ),
     "unknown": ("worlds",),
     "outside": ("strangers", "fuzz", "faults"),
+    "unknown": ("eyes",),
 }
 """Groups of claims, each claim the name of a module here, in the order in which they are measured."""
 

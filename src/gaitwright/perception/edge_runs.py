@@ -82,23 +82,23 @@ def join(sectors, points, eye, narrow, bent, pieces, corners):
     while begin < SECTORS and follows(sectors, points, (begin - 1) % SECTORS, narrow):
         begin += 1
     found, k = 0, 0
-    line, kept = np.empty((SECTORS + 2, 2)), np.empty(SECTORS + 2, np.bool_)
+    line, kept = np.empty((3 * SECTORS, 2)), np.empty(3 * SECTORS, np.bool_)
     while k < SECTORS:
         s = first = (begin + k) % SECTORS
         k += 1
         if not sectors[s, WALL] < math.inf:
             continue
-        line[0], line[1], count = points[s, RIGHT], points[s, NEAREST], 2
+        line[0], line[1], line[2], count = points[s, RIGHT], points[s, NEAREST], points[s, LEFT], 3
         while k < SECTORS and follows(sectors, points, s, narrow):
             s = (s + 1) % SECTORS
-            line[count] = points[s, NEAREST]
-            count += 1
+            for at in (RIGHT, NEAREST, LEFT):
+                line[count] = points[s, at]
+                count += 1
             k += 1
-        line[count] = points[s, LEFT]
-        kept_points(line, count + 1, bent, kept)
+        kept_points(line, count, bent, kept)
         open_right = seen_past(sectors, points, eye, first, RIGHT, (first - 1) % SECTORS)
         open_left = seen_past(sectors, points, eye, s, LEFT, (s + 1) % SECTORS)
-        found = write_run(line, count + 1, kept, (open_right, open_left), pieces, corners, found)
+        found = write_run(line, count, kept, (open_right, open_left), pieces, corners, found)
     return found
 
 

@@ -147,8 +147,8 @@ def gather(eye, R_wc, rays, ranges, noise, spacing, kinds, sectors, points):
             continue
         far, ray = ranges[k // columns, k % columns], times(R_wc, vec(rays[k]))
         away, s = far * math.hypot(ray[0], ray[1]), sector_of(ray[0], ray[1])
-        behind = away - sectors[s, WALL] - CLUSTER * (noise[0] + noise[1] * far * far) - 0.25 * spacing
-        if behind > (OBLIQUE * away if kinds[k] == FACE else 0.0):
+        behind = away - sectors[s, WALL] - CLUSTER * (noise[0] + noise[1] * far * far)
+        if behind > (OBLIQUE * away if kinds[k] == FACE else 0.25 * spacing):
             continue
         x, y = eye[0] + far * ray[0], eye[1] + far * ray[1]
         middle = 2.0 * math.pi * (s + 0.5) / SECTORS
