@@ -75,6 +75,7 @@ def ours(context: Context, count: int) -> Iterator[Figure]:
         f"{count} polygons: map and first way from nothing", new, at_most(30.0) if count == 200 else None
     )
     learned, added = LearnedMap.of_polygons(bounds, RADIUS, polygons), []
+    _ = learned.seen(outline(polygons[0])).road_map  # compiles
     for extra in drawn(context.seed + 2, count)[1][:QUICK]:
         sight = outline(extra)
         added.append(took(lambda sight=sight: learned.seen(sight).road_map))
