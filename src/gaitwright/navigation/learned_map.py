@@ -31,7 +31,8 @@ STRATEGIES = ("optimistic", "thesis")
 LARGEST = 100_000.0
 """A field is no longer or wider [m]."""
 TOUCHED, BESIDE = 1e-3, 0.15
-"""What was touched is there to this length to either side, and supposed to go on to that [m]."""
+"""What was touched is there to this length to either side, and twice the noise; it is supposed to go on to
+that [m]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,9 +99,9 @@ class LearnedMap:
         sides is only supposed."""
         require_finite(np.array([*place, direction]))
         ahead = np.array([math.cos(direction), math.sin(direction)])
-        across, at = np.array([-ahead[1], ahead[0]]), np.array(place) + (self.radius - TOUCH) * ahead
+        across, at = np.array([-ahead[1], ahead[0]]), np.array(place) + (self.narrowest - TOUCH) * ahead
         rows = self.rows
-        for half, kind in ((TOUCHED, FELT), (BESIDE, SUPPOSED)):
+        for half, kind in ((TOUCHED + 2.0 * self.noise, FELT), (BESIDE, SUPPOSED)):
             piece = np.concatenate([at - half * across, at + half * across])[None]
             rows = joined_rows(rows, rows_of(piece, False, kind), self.noise)
         return replace(self, rows=rows)
@@ -151,7 +152,7 @@ class LearnedMap:
         """Whether what is known for sure comes within r of a path [m], and nearer than to its beginning,
         where the robot stands (`way` may go through what is only supposed, and out of what is deep in it)."""
         sure = self.pieces[self.rows[:, KIND] != SUPPOSED]
-        room, deep = self.radius - 2.0 * self.noise - CHECK, DEEP * self.radius
+        room, deep = self.narrowest - CHECK, DEEP * self.radius
         return is_path_cut(sure, path, room, deep) or is_path_cut(fence(self.bounds), path, room, deep)
 
     @property
@@ -164,6 +165,11 @@ class LearnedMap:
         """Which of their ends are corners."""
         return self.rows[:, CORNERS] > 0.0
 
+    @property
+    def narrowest(self) -> float:
+        """Radius of the disc for which "no way" is said [m]: noise may have made gaps narrower."""
+        return max(self.radius - 2.0 * self.noise, 0.5 * self.radius)
+
     @cached_property
     def road_map(self) -> RoadMap:
         """The roads among what is known."""
@@ -172,8 +178,7 @@ class LearnedMap:
     @cached_property
     def sure_road_map(self) -> RoadMap:
         """The roads of a disc narrower by what the noise may have added, without what is only supposed."""
-        narrower = max(self.radius - 2.0 * self.noise, 0.5 * self.radius)
-        return RoadMap(self.bounds, narrower, self.pieces[self.rows[:, KIND] != SUPPOSED])
+        return RoadMap(self.bounds, self.narrowest, self.pieces[self.rows[:, KIND] != SUPPOSED])
 
 
 def require_finite(*arrays: np.ndarray) -> None:
