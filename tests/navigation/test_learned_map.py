@@ -298,7 +298,12 @@ def test_goals_that_cannot_be_stood_on() -> None:
 def test_what_makes_no_sense_is_said() -> None:
     with pytest.raises(WrongUse, match="no strategy 'best'"):
         LearnedMap.of(BOUNDS, RADIUS, strategy="best")
-    for bounds, radius in (((0.0, 0.0, 0.0, 1.0), 0.1), (BOUNDS, 0.0), ((0.0, 0.0, math.inf, 1.0), 0.1)):
+    for bounds, radius in (
+        ((0.0, 0.0, 0.0, 1.0), 0.1),
+        (BOUNDS, 0.0),
+        ((0.0, 0.0, math.inf, 1.0), 0.1),
+        ((0.0, 0.0, 2e5, 1.0), 0.1),
+    ):
         with pytest.raises(WrongUse):
             LearnedMap.of(bounds, radius)
     with pytest.raises(WrongUse):

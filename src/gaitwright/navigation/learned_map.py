@@ -28,8 +28,11 @@ Path = Sequence[Point] | Float[np.ndarray, "n 2"]
 """Points of a path [m]."""
 STRATEGIES = ("optimistic", "thesis")
 """How a way is chosen where the map is blank."""
+LARGEST = 100_000.0
+"""A field is no longer or wider [m]."""
 TOUCHED, BESIDE = 1e-3, 0.15
-"""What was touched is there to this length to either side, and supposed to go on to that [m]."""
+"""What was touched is there to this length to either side, and twice the noise; it is supposed to go on to
+that [m]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +64,10 @@ class LearnedMap:
         x_min, y_min, x_max, y_max = bounds
         if not (all(map(math.isfinite, bounds)) and x_min < x_max and y_min < y_max):
             raise WrongUse(f"a field from ({x_min:g}, {y_min:g}) to ({x_max:g}, {y_max:g}) has no room")
+        if max(x_max - x_min, y_max - y_min) > LARGEST:
+            raise WrongUse(
+                f"a field has at most {LARGEST / 1000.0:g} km, not {x_max - x_min:g} m by {y_max - y_min:g} m"
+            )
         if not (math.isfinite(radius) and radius > 0.0 and math.isfinite(noise) and noise >= 0.0):
             raise WrongUse(f"a disc of radius {radius:g} m seen with a noise of {noise:g} m makes no sense")
         return cls(bounds, radius, strategy, noise, rows_of(np.empty((0, 4)), True), blank(bounds))
@@ -92,9 +99,9 @@ class LearnedMap:
         sides is only supposed."""
         require_finite(np.array([*place, direction]))
         ahead = np.array([math.cos(direction), math.sin(direction)])
-        across, at = np.array([-ahead[1], ahead[0]]), np.array(place) + (self.radius - TOUCH) * ahead
+        across, at = np.array([-ahead[1], ahead[0]]), np.array(place) + (self.narrowest - TOUCH) * ahead
         rows = self.rows
-        for half, kind in ((TOUCHED, FELT), (BESIDE, SUPPOSED)):
+        for half, kind in ((TOUCHED + 2.0 * self.noise, FELT), (BESIDE, SUPPOSED)):
             piece = np.concatenate([at - half * across, at + half * across])[None]
             rows = joined_rows(rows, rows_of(piece, False, kind), self.noise)
         return replace(self, rows=rows)
@@ -129,6 +136,7 @@ class LearnedMap:
         what is only supposed, and where pieces are noisy for a disc narrower by twice the noise.
         """
         require_finite(np.array([*start, *goal]))
+        start, goal = (float(start[0]), float(start[1])), (float(goal[0]), float(goal[1]))
         way = self.way_over(self.road_map, start, goal)
         if way is None and (self.noise > 0.0 or (self.rows[:, KIND] == SUPPOSED).any()):
             return self.way_over(self.sure_road_map, start, goal)
@@ -141,10 +149,10 @@ class LearnedMap:
         return best_way(road_map, self.raster, start, goal)
 
     def is_cut(self, path: Path) -> bool:
-        """Whether what is known for sure comes within r of a path [m], and nearer than to its beginning, where
-        the robot stands (`way` may go through what is only supposed, and leaves what is deep within it)."""
+        """Whether what is known for sure comes within r of a path [m], and nearer than to its beginning,
+        where the robot stands (`way` may go through what is only supposed, and out of what is deep in it)."""
         sure = self.pieces[self.rows[:, KIND] != SUPPOSED]
-        room, deep = self.radius - 2.0 * self.noise - CHECK, DEEP * self.radius
+        room, deep = self.narrowest - CHECK, DEEP * self.radius
         return is_path_cut(sure, path, room, deep) or is_path_cut(fence(self.bounds), path, room, deep)
 
     @property
@@ -157,6 +165,11 @@ class LearnedMap:
         """Which of their ends are corners."""
         return self.rows[:, CORNERS] > 0.0
 
+    @property
+    def narrowest(self) -> float:
+        """Radius of the disc for which "no way" is said [m]: noise may have made gaps narrower."""
+        return max(self.radius - 2.0 * self.noise, 0.5 * self.radius)
+
     @cached_property
     def road_map(self) -> RoadMap:
         """The roads among what is known."""
@@ -165,8 +178,7 @@ class LearnedMap:
     @cached_property
     def sure_road_map(self) -> RoadMap:
         """The roads of a disc narrower by what the noise may have added, without what is only supposed."""
-        narrower = max(self.radius - 2.0 * self.noise, 0.5 * self.radius)
-        return RoadMap(self.bounds, narrower, self.pieces[self.rows[:, KIND] != SUPPOSED])
+        return RoadMap(self.bounds, self.narrowest, self.pieces[self.rows[:, KIND] != SUPPOSED])
 
 
 def require_finite(*arrays: np.ndarray) -> None:

@@ -15,8 +15,8 @@ Pieces = Float[np.ndarray, "n _"]
 def is_path_cut(
     pieces: Pieces, path: Sequence[tuple[float, float]] | Float[np.ndarray, "m 2"], room: float, deep: float
 ) -> bool:
-    """Whether a piece comes nearer than `room` [m] to a path, and nearer than to its beginning; what is nearer than
-    `deep` to the beginning does not count on the first leg."""
+    """Whether a piece comes nearer than `room` [m] to a path, and nearer than to its beginning; what is
+    nearer than `deep` to the beginning does not count on the first leg."""
     return bool(is_cut(pieces, np.array(path, dtype=float).reshape(-1, 2), room, deep))
 
 

@@ -174,11 +174,11 @@ def two_fronts(
 def best_first(
     streets: StreetMap, start: Junction, goal: Junction, left: Callable[[Junction], float]
 ) -> StreetRoute:
-    """By the length so far and the least that is `left` [m]."""
+    """By the length so far and the least that is `left` [m]; of equally good ones the nearest goes on."""
     cost, parent, closed = {start: 0.0}, {start: start}, set()
-    queue = [(left(start), start)]
+    queue = [(left(start), left(start), start)]
     while queue:
-        _, here = heapq.heappop(queue)
+        *_, here = heapq.heappop(queue)
         if here == goal:
             return StreetRoute(tuple(reversed(back(parent, goal))), cost[goal], len(closed))
         if here in closed:
@@ -188,7 +188,7 @@ def best_first(
             new = cost[here] + streets.length(here, there)
             if new < cost.get(there, math.inf):
                 cost[there], parent[there] = new, here
-                heapq.heappush(queue, (new + left(there), there))
+                heapq.heappush(queue, (new + left(there), left(there), there))
     return StreetRoute((), math.inf, len(closed))
 
 

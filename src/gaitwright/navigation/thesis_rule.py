@@ -2,10 +2,10 @@
 
 The text says: go towards the goal until an obstacle is faced; go to a vertex of the edge that is faced; go on
 from there in the same way; where the map is known take the shortest path on it. Read into it was: of an
-edge's two ends the one with the shorter way round is taken, but one that the robot goes alongside is not turned back
-on; vertices where this trip has been are left out; where both ends are, the nearest other vertex comes next
-(depth first); the whole course over what is known now is said at once; and what ends is the search, not the
-walk: where no way is left even if all that is unknown were free, there is none.
+edge's two ends the one with the shorter way round is taken, but one that the robot goes alongside is not
+turned back on; vertices where this trip has been are left out; where both ends are, the nearest other vertex
+comes next (depth first); the whole course over what is known now is said at once; and what ends
+is the search, not the walk: where no way is left even if all that is unknown were free, there is none.
 """
 
 import math
