@@ -1,4 +1,4 @@
-"""The slow, plain planner that a learned map has to equal: optimistic, by shapely, over corners on fine arcs."""
+"""The slow, plain planner that a learned map has to equal: optimistic, over corners of arcs, by shapely."""
 
 import math
 from dataclasses import dataclass, field, replace

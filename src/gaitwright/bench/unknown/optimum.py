@@ -47,6 +47,12 @@ def shortest(world: World, radius: float, start: Point, goal: Point) -> float:
     return way_among(grown(world, radius, QUARTER), edges, start, goal)[0]
 
 
+def shortest_way(world: World) -> Float[np.ndarray, "m 2"]:
+    """Points of the way whose length is the lower bound [m]; none where there is none."""
+    edges = edges_of(grown(world, RADIUS - HAIR, QUARTER))
+    return way_among(grown(world, RADIUS, QUARTER), edges, world.start, world.goal)[1]
+
+
 def way_among(
     solid: shapely.Geometry, edges: Float[np.ndarray, "n 4"], start: Point, goal: Point
 ) -> tuple[float, Float[np.ndarray, "m 2"]]:
