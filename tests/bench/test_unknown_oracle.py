@@ -7,13 +7,16 @@ from itertools import combinations
 import numpy as np
 import pytest
 import shapely
+from exact_planner import Exact
 from shapely import LineString
 from unknown_by_hand import boxes_by_lot, made
 
 from gaitwright.bench.unknown.drawn import KINDS, SIDEWAYS, rearranged, world
+from gaitwright.bench.unknown.eyes import Camera
 from gaitwright.bench.unknown.families import FAMILIES
 from gaitwright.bench.unknown.optimum import QUARTER, optimum, shortest
 from gaitwright.bench.unknown.oracle import grown, has_way, truth
+from gaitwright.bench.unknown.walker import ARRIVED, NONE, Walker
 from gaitwright.bench.unknown.world import APART, FREE, RADIUS, WIDER, World
 
 
@@ -163,3 +166,20 @@ def by_every_pair(one: World) -> float:
                 best[there] = length + long
                 heapq.heappush(queue, (length + long, there))
     return math.inf
+
+
+# --- the oracle and everything that is tried, together -----------------------------------------------
+@pytest.mark.parametrize(("number", "over", "end"), [(0, -1.2, NONE), (4, 2.3, ARRIVED), (72, 11.7, ARRIVED)])
+def test_an_exact_planner_passes_gaps_that_are_wide_enough_and_refuses_others(
+    number: int, over: float, end: str
+) -> None:
+    one = world(5, number)
+    assert one.gap == pytest.approx(1e-3 * over, abs=1e-4)
+    trip = Walker(one, Exact(), Camera()).trip(one.goal)
+    assert trip.end == end
+    back = Walker(one, Exact(one.edges), Camera()).trip(one.goal)
+    assert back.end == end
+    if end == ARRIVED:
+        lower, upper = optimum(one)
+        assert lower - 1e-6 <= back.metres <= upper * 1.001
+        assert trip.promised <= upper * 1.001 and trip.metres >= lower - 1e-6

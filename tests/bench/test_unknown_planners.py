@@ -134,7 +134,7 @@ class Checked(DStarLite):
 PLANS: list[bool] = []
 
 
-@pytest.mark.parametrize("number", [5, 8, 11, 14, 18])
+@pytest.mark.parametrize("number", [5, 11, 14, 18])
 def test_d_star_lite_agrees_with_a_star_at_every_plan(number: int) -> None:
     one = world(0, number)
     PLANS.clear()

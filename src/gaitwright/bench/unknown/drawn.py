@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import shapely
@@ -11,21 +12,21 @@ from shapely.affinity import translate
 from gaitwright.bench.unknown.families import FAMILIES
 from gaitwright.bench.unknown.oracle import has_way
 from gaitwright.bench.unknown.pockets import gap_width, pocket
-from gaitwright.bench.unknown.world import APART, FREE, RADIUS, SIZE, WIDER, Point, World, border
+from gaitwright.bench.unknown.world import APART, BOUNDS, FREE, RADIUS, SIZE, WIDER, Point, World, border
 
 KINDS = ("gap", "walled", "open", "open", "walled", "open", "gap", "open", "walled", "open", "open", "open",
          "walled", "open", "gap", "open", "open", "open", "open", "open")  # fmt: skip
 """Of twenty worlds of a family: 3 with a gap that decides, 4 walled in."""
-PLACES = 60
-"""Places for start and goal that are tried in one set of obstacles."""
+PLACES, TRIES = 60, 10
+"""Places for start and goal that are drawn at once, and how often in one set of obstacles."""
 START_SHUT = 0.25
 """In such a share of the rings stands the start."""
 SIDEWAYS = 1.0
 """A gap is so far from the straight line between start and goal [m]."""
 HAIR = 1e-4
 """A gap decides: there is a way for a disc narrower than it by this [m], and none for a wider one."""
-MOVED, BY = 0.25, 1.0
-"""Share of the obstacles that move between trips, and how far at most [m]."""
+MOVED, BY, LARGEST = 0.25, 1.0, 5.0
+"""Share of the obstacles that move between trips, how far at most [m], and none larger than this [m²]."""
 
 
 def world(seed: int, number: int) -> World:
@@ -50,11 +51,11 @@ def drawn(rng: np.random.Generator, name: str, family: str, kind: str) -> World 
 
 def with_way(rng: np.random.Generator, bare: World) -> World | None:
     """The world with a start and a goal between which there is a way."""
-    for _ in range(PLACES // 6):
+    for _ in range(TRIES):
         ends = places(rng, bare.solid)
         if ends is None:
             continue
-        found = World(bare.name, bare.family, bare.kind, bare.obstacles, *ends)
+        found = replace(bare, start=ends[0], goal=ends[1])
         if has_way(found, WIDER):
             return found
     return None
@@ -93,7 +94,7 @@ def is_as_wanted(found: World, mouth: Point | None) -> bool:
     """Whether start and goal are free and apart, and the gap decides, or nothing leads in."""
     if min(found.clearance(found.start), found.clearance(found.goal)) < FREE:
         return False
-    if math.dist(found.start, found.goal) < APART or shapely.get_num_geometries(found.solid) == 0:
+    if math.dist(found.start, found.goal) < APART:
         return False
     if found.gap is None or mouth is None:
         return not has_way(found, 0.5 * RADIUS)
@@ -104,13 +105,12 @@ def is_as_wanted(found: World, mouth: Point | None) -> bool:
 
 
 def rearranged(old: World, seed: int) -> World:
-    """The world after a share of its obstacles moved; the border, the ring and its start and goal stay."""
+    """The world after a share of its obstacles moved; what was said of gaps and rings need not hold then."""
     rng = np.random.default_rng([seed, 7])
-    ends = shapely.multipoints([old.start, old.goal])
+    ends, square = shapely.multipoints([old.start, old.goal]), shapely.box(*BOUNDS)
     out = []
     for one in old.obstacles:
-        moved = translate(one, *rng.uniform(-BY, BY, 2))
-        is_free = shapely.distance(moved, ends) >= FREE and shapely.box(0.0, 0.0, SIZE, SIZE).contains(moved)
-        is_moved = rng.random() < MOVED and is_free and one.area < SIZE * 0.25
-        out.append(moved if is_moved else one)
-    return World(old.name, old.family, old.kind, tuple(out), old.start, old.goal, old.gap)
+        moved, is_drawn = translate(one, *rng.uniform(-BY, BY, 2)), rng.random() < MOVED
+        may = one.area < LARGEST and square.contains(moved) and shapely.distance(moved, ends) >= FREE
+        out.append(moved if is_drawn and may else one)
+    return replace(old, obstacles=tuple(out))

@@ -43,9 +43,29 @@ def optimum(world: World, start: Point | None = None, goal: Point | None = None)
 
 def shortest(world: World, radius: float, start: Point, goal: Point) -> float:
     """Length of the shortest way [m] among obstacles grown to polygons with corners on arcs of a radius."""
-    corners = convex_corners(grown(world, radius, QUARTER))
+    edges = edges_of(grown(world, radius - HAIR, QUARTER))
+    return way_among(grown(world, radius, QUARTER), edges, start, goal)[0]
+
+
+def shortest_way(world: World) -> Float[np.ndarray, "m 2"]:
+    """Points of the way whose length is the lower bound [m]; none where there is none."""
+    edges = edges_of(grown(world, RADIUS - HAIR, QUARTER))
+    return way_among(grown(world, RADIUS, QUARTER), edges, world.start, world.goal)[1]
+
+
+def way_among(
+    solid: shapely.Geometry, edges: Float[np.ndarray, "n 4"], start: Point, goal: Point
+) -> tuple[float, Float[np.ndarray, "m 2"]]:
+    """Length [m] and points of the shortest way over convex corners of what is solid that crosses no edge."""
     ends = np.array([[*start, *start, *start], [*goal, *goal, *goal]])
-    return float(search(np.vstack([ends, corners]), edges_of(grown(world, radius - HAIR, QUARTER))))
+    nodes = np.vstack([ends, convex_corners(solid)])
+    length, before = search(nodes, edges)
+    if math.isinf(length):
+        return math.inf, np.empty((0, 2))
+    along = [1]
+    while along[-1]:
+        along.append(int(before[along[-1]]))
+    return float(length), nodes[along[::-1], :2]
 
 
 def convex_corners(solid: shapely.Geometry) -> Float[np.ndarray, "n 6"]:
@@ -59,15 +79,15 @@ def convex_corners(solid: shapely.Geometry) -> Float[np.ndarray, "n 6"]:
             came, goes = here - before, after - here
             convex = came[:, 0] * goes[:, 1] - came[:, 1] * goes[:, 0] > 0.0
             found.append(np.hstack([here, before, after])[convex])
-    return np.vstack(found)
+    return np.vstack([np.empty((0, 6)), *found])
 
 
 # --- compiled --------------------------------------------------------------------------------------
 @kernel
 def search(nodes, edges):
-    """Length of the shortest way from node 0 to node 1 [m], or infinity."""
+    """Length of the shortest way from node 0 to node 1 [m], or infinity; the node before each node on it."""
     size = len(nodes)
-    g, done = np.full(size, math.inf), np.zeros(size, np.bool_)
+    g, done, before = np.full(size, math.inf), np.zeros(size, np.bool_), np.zeros(size, np.int64)
     heap, place, f = np.empty(size, np.int64), np.full(size, -1), np.full(size, math.inf)
     g[0] = f[0] = 0.0
     count = push(heap, place, f, f, 0, 0)
@@ -75,7 +95,7 @@ def search(nodes, edges):
         here = heap[0]
         count = drop(heap, place, f, f, count, here)
         if here == 1:
-            return g[1]
+            break
         done[here] = True
         for there in range(1, size):
             if done[there]:
@@ -91,10 +111,10 @@ def search(nodes, edges):
                 continue
             if not is_free(edges, nodes, here, there):
                 continue
-            g[there] = g[here] + away
+            g[there], before[there] = g[here] + away, here
             f[there] = g[there] + math.hypot(nodes[1, 0] - nodes[there, 0], nodes[1, 1] - nodes[there, 1])
             count = push(heap, place, f, f, count, there)
-    return math.inf
+    return g[1], before
 
 
 @kernel

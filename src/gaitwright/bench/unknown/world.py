@@ -64,7 +64,7 @@ def edges_of(solid: shapely.Geometry) -> Float[np.ndarray, "n 4"]:
         for part in shapely.get_parts(solid)
         for ring in (part.exterior, *part.interiors)
     ]
-    edges = np.vstack([np.hstack([ring[:-1], ring[1:]]) for ring in rings])
+    edges = np.vstack([np.empty((0, 4)), *(np.hstack([ring[:-1], ring[1:]]) for ring in rings)])
     return np.ascontiguousarray(edges[np.hypot(*(edges[:, 2:] - edges[:, :2]).T) > 0.0])
 
 
