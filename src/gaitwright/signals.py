@@ -136,7 +136,7 @@ class GroundMap:
 
     bounds: tuple[float, float, float, float]
     """x_min, y_min, x_max, y_max of the field [m]: robots stay inside."""
-    obstacles: tuple[Float[np.ndarray, "corners 2"], ...]
+    obstacles: tuple[Float[np.ndarray, "_ 2"], ...]
     """Outlines of what is too high to step on, seen from above, world x, y [m]."""
     elevation: Elevation | None
     """For eyes; `None` for a robot that does not look."""

@@ -38,6 +38,7 @@ def test_start_and_goal_are_free_and_inside(name: str, difficulty: str) -> None:
     for seed in range(4):
         scene = load_scene(f"{name}:{difficulty}", seed)
         around, field = obstacles(scene), shapely.box(*scene.bounds)
+        assert scene.goal is not None
         room = 0.4 if name in ("maze", "rooms", "streets") else FREE
         for x, y in (scene.start[:2], scene.goal):
             assert field.contains(shapely.Point(x, y))

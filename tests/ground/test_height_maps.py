@@ -9,7 +9,8 @@ import pytest
 from PIL import Image
 
 from gaitwright.errors import BadFile, WrongUse
-from gaitwright.ground.height_map import grey_of, height_map
+from gaitwright.ground.grey_png import grey_of
+from gaitwright.ground.height_map import height_map
 from gaitwright.ground.scene import load_scene
 
 GREY = np.arange(12, dtype=np.uint8).reshape(3, 4) * 20

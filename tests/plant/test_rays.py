@@ -99,7 +99,7 @@ def test_feet_have_the_friction_of_their_places() -> None:
     scene = Scene("half ice", Flat(), patches=(ice,))
     plant = MujocoPlant(robot, scene)
     plant.reset(vary=False)
-    still = MotorCommand(np.zeros((robot.n, 3)))
+    still = MotorCommand(np.zeros((robot.n, 3)), np.zeros((robot.n, 3)))
     plant.step(still)
     plant.step(still)
     contacts = {

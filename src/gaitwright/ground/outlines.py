@@ -71,7 +71,7 @@ def mended(corners: Sequence[tuple[float, float]]) -> tuple[Outline, str]:
 
 
 # --- convex parts ----------------------------------------------------------------------------------
-def convex_parts(region: BaseGeometry) -> tuple[Float[np.ndarray, "corners 2"], ...]:
+def convex_parts(region: BaseGeometry) -> tuple[Float[np.ndarray, "_ 2"], ...]:
     """Convex polygons, anticlockwise, that fill a polygon or several: triangles, joined while the whole stays
     convex (Hertel and Mehlhorn, 1983). All corners of the region are corners of every part beside them."""
     parts = {k: outline_of(ring) for k, ring in enumerate(_triangles(region))}

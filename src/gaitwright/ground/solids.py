@@ -34,7 +34,7 @@ class Cylinder(Solid):
     def corners(self) -> Float[np.ndarray, "corners 2"]:
         return circle(self.x, self.y, self.radius)
 
-    def tops(self) -> tuple[Float[np.ndarray, "corners 3"], ...]:
+    def tops(self) -> tuple[Float[np.ndarray, "_ 3"], ...]:
         return (lifted(self.corners(), self.height),)
 
     def row(self, level: float) -> tuple[float, ...]:
@@ -66,7 +66,7 @@ class Pyramid(Solid):
     def corners(self) -> Float[np.ndarray, "corners 2"]:
         return rectangle(self.x, self.y, self.yaw, self.lx, self.ly)
 
-    def tops(self) -> tuple[Float[np.ndarray, "corners 3"], ...]:
+    def tops(self) -> tuple[Float[np.ndarray, "_ 3"], ...]:
         low = lifted(self.corners(), 0.0)
         high = lifted(
             rectangle(self.x, self.y, self.yaw, self.top * self.lx, self.top * self.ly), self.height
@@ -110,7 +110,7 @@ class Wedge(Solid):
     def corners(self) -> Float[np.ndarray, "corners 2"]:
         return rectangle(self.x, self.y, self.yaw, self.lx, self.ly)
 
-    def tops(self) -> tuple[Float[np.ndarray, "corners 3"], ...]:
+    def tops(self) -> tuple[Float[np.ndarray, "_ 3"], ...]:
         return (lifted(self.corners(), np.array([self.height, 0.0, 0.0, self.height])),)
 
     @property
@@ -150,7 +150,7 @@ class Sphere(Solid):
     def corners(self) -> Float[np.ndarray, "corners 2"]:
         return circle(self.x, self.y, self.rim)
 
-    def tops(self) -> tuple[Float[np.ndarray, "corners 3"], ...]:
+    def tops(self) -> tuple[Float[np.ndarray, "_ 3"], ...]:
         raise NotImplementedError("a sphere has no plane piece")
 
     def extent(self) -> tuple[float, float, float, float]:
@@ -184,7 +184,7 @@ class Prism(Solid):
     def corners(self) -> Float[np.ndarray, "corners 2"]:
         return np.array(self.outline)
 
-    def tops(self) -> tuple[Float[np.ndarray, "corners 3"], ...]:
+    def tops(self) -> tuple[Float[np.ndarray, "_ 3"], ...]:
         return tuple(lifted(part, self.height) for part in convex_parts(shapely.Polygon(self.outline)))
 
     def row(self, level: float) -> tuple[float, ...]:

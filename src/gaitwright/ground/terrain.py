@@ -142,7 +142,7 @@ class Solid(ABC):
         """Corners of its outline, anticlockwise, world [m]."""
 
     @abstractmethod
-    def tops(self) -> tuple[Float[np.ndarray, "corners 3"], ...]:
+    def tops(self) -> tuple[Float[np.ndarray, "_ 3"], ...]:
         """The convex pieces of its top, anticlockwise from above: world x, y, height over its base [m]."""
 
     @abstractmethod
@@ -205,7 +205,7 @@ class Box(Solid):
         """Radius of the circle around its outline [m]."""
         return math.hypot(self.lx, self.ly) / 2
 
-    def tops(self) -> tuple[Float[np.ndarray, "corners 3"], ...]:
+    def tops(self) -> tuple[Float[np.ndarray, "_ 3"], ...]:
         return (lifted(self.corners(), self.height),)
 
     def extent(self) -> tuple[float, float, float, float]:

@@ -11,7 +11,6 @@ from collections.abc import Sequence
 import numpy as np
 import shapely
 from jaxtyping import Bool, Float
-from shapely.ops import substring
 
 from gaitwright.ground.holes import Hole
 from gaitwright.ground.outlines import outline_of
@@ -32,16 +31,23 @@ def walls(
     ground: Surface, solids: Sequence[Solid], holes: Sequence[Hole], step: float
 ) -> tuple[Solid | Hole, ...]:
     """What is walked around of what stands in a scene; `ground`: all of it, as high as it is [m]."""
-    ramps = [solid for solid in solids if _leads_up(solid, step)]
+    beside_ramp = _beside_ramps(solids, step)
     out: list[Solid | Hole] = []
-    for solid in solids:
-        if not solid.rises(step):
-            continue
-        if any(solid is ramp or _meet(solid, ramp) for ramp in ramps):
-            out.extend(_stretches(ground, solid, step))
-        else:
-            out.append(solid)
+    for solid, is_beside in zip(solids, beside_ramp, strict=True):
+        if solid.rises(step):
+            out.extend(_stretches(ground, solid, step) if is_beside else [solid])
     return (*out, *(hole for hole in holes if hole.depth > step and hole.width > WIDE * step))
+
+
+def _beside_ramps(solids: Sequence[Solid], step: float) -> Bool[np.ndarray, "n"]:
+    """Which solids are ramps, or meet one by the circles around them."""
+    ramps = np.array([_leads_up(solid, step) for solid in solids], dtype=bool)
+    if not ramps.any():
+        return ramps
+    x, y = np.array([solid.centre for solid in solids]).T
+    reach = np.array([solid.reach for solid in solids]) + BESIDE
+    away = np.hypot(x[:, None] - x[ramps], y[:, None] - y[ramps])
+    return (away <= reach[:, None] + reach[ramps]).any(axis=1)
 
 
 def _leads_up(solid: Solid, step: float) -> bool:
@@ -49,26 +55,26 @@ def _leads_up(solid: Solid, step: float) -> bool:
     return isinstance(solid, Wedge | Pyramid) and solid.height > step and solid.steepness <= 1.0
 
 
-def _meet(one: Solid, other: Solid) -> bool:
-    """Whether the circles around two solids meet."""
-    away = np.hypot(one.centre[0] - other.centre[0], one.centre[1] - other.centre[1])
-    return bool(away <= one.reach + other.reach + BESIDE)
-
-
 def _stretches(ground: Surface, solid: Solid, step: float) -> list[Solid]:
     """A solid as a wall: all of it, or the stretches of its outline where the ground breaks."""
     outline = shapely.Polygon(solid.corners())
     ring = outline.exterior
     count = max(int(ring.length / (PROBE * step)), 12)
-    along = np.linspace(0.0, ring.length, count + 1)
+    corners = shapely.line_locate_point(ring, shapely.points(solid.corners()))
+    along = np.unique(np.concatenate([np.linspace(0.0, ring.length, count + 1), corners]))
     breaks = _breaks(ground, ring, (along[:-1] + along[1:]) / 2, step)
     if breaks.all():
         return [solid]
-    strips = [substring(ring, along[k], along[k + 1]) for k in np.flatnonzero(breaks)]
-    edge = shapely.line_merge(shapely.union_all(strips))
+    places = shapely.get_coordinates(shapely.line_interpolate_point(ring, along))
+    pieces = shapely.linestrings(np.stack([places[:-1], places[1:]], axis=1)[breaks])
+    edge = shapely.line_merge(shapely.union_all(pieces))
     wall = edge.buffer(THICK * step, cap_style="flat", join_style="mitre").intersection(outline)
     parts = getattr(wall, "geoms", [wall])
-    return [Prism(outline_of(list(part.exterior.coords)[:-1]), solid.height) for part in parts if part.area]
+    return [
+        Prism(outline_of(shapely.get_coordinates(part.exterior)[:-1]), solid.height)
+        for part in parts
+        if part.area > 0.0
+    ]
 
 
 def _breaks(

@@ -64,7 +64,7 @@ def ground(scene: Scene) -> dict[str, Any]:
 def pitted(surface: Pitted, bounds: tuple[float, float, float, float]) -> dict[str, Any]:
     """A plane with holes: its level parts, their walls and their floors."""
     left: shapely.Geometry = shapely.box(*bounds)
-    faces: list[Float[np.ndarray, "corners 3"]] = []
+    faces: list[Float[np.ndarray, "_ 3"]] = []
     for hole in sorted(surface.holes, key=lambda hole: -hole.depth):
         floor = shapely.intersection(shapely.Polygon(hole.outline), left)
         left = shapely.difference(left, floor)
@@ -82,7 +82,7 @@ def hull(scene: Scene, solid: Solid) -> dict[str, Any]:
     """A solid's top and sides, which go down below the ground that is not level."""
     level = scene.level(solid)
     depth = 0.0 if isinstance(scene.surface, Flat) else 2.0 * solid.reach
-    faces: list[Float[np.ndarray, "corners 3"]] = []
+    faces: list[Float[np.ndarray, "_ 3"]] = []
     for top in solid.tops():
         placed = top + np.array([0.0, 0.0, level])
         faces += [placed, *walls(placed, level - depth)]
@@ -97,7 +97,7 @@ def walls(
     return [np.array([low[k - 1], low[k], top[k], top[k - 1]]) for k in range(len(top))]
 
 
-def fans(faces: list[Float[np.ndarray, "corners 3"]]) -> tuple[np.ndarray, np.ndarray]:
+def fans(faces: list[Float[np.ndarray, "_ 3"]]) -> tuple[np.ndarray, np.ndarray]:
     """Convex faces as triangles: the places of their corners, and the corners of each triangle."""
     first = np.cumsum([0, *(len(face) for face in faces)])
     corners = [
