@@ -11,7 +11,7 @@ from gaitwright.bench.unknown.lattice import SOFT, joined, news
 from gaitwright.bench.unknown.optimum import HAIR, way_among
 from gaitwright.bench.unknown.segments import is_way_clear
 from gaitwright.bench.unknown.world import RADIUS, TOUCH, Point, edges_of
-from gaitwright.navigation.sight import Sight
+from gaitwright.signals import Sight
 
 QUARTER = 12
 ROOM = (RADIUS + 1e-5) / math.cos(math.pi / (4.0 * QUARTER))

@@ -56,8 +56,8 @@ def setting(text: str) -> tuple[str, float]:
 
 
 def sight_of(args: Namespace, robot: "Robot") -> "Camera | str":
-    """`known`, `blind`, or the camera that the robot carries. Raises `WrongUse` for settings without a camera,
-    and for a camera that makes no sense."""
+    """`known`, `blind`, or the camera that the robot carries. Raises `WrongUse` for settings without a
+    camera, and for a camera that makes no sense."""
     if args.camera and args.sight != "camera":
         raise WrongUse(f"--camera goes with --sight camera, not with --sight {args.sight}")
     if args.sight != "camera":

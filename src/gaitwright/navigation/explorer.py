@@ -82,7 +82,8 @@ class Explorer:
         known, left = explored.known, explored.left
         while len(path) > 1 and self.has_passed(known, here, path[0], path[1]):
             explored = explored._replace(way=(*explored.way, here))
-            left = left[1:] if path[0] == left[0] and len(left) > 1 else left
+            if len(left) > 1 and path[0] == left[0]:
+                left = left[1:]
             path = path[1:]
         explored = explored._replace(left=left)
         if explored is not memory and known.is_cut((here, *path)):

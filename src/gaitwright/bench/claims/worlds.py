@@ -18,7 +18,6 @@ from gaitwright.bench.unknown.contestants import (
     D_STAR,
     LEARNED,
     THESIS,
-    is_there,
 )
 from gaitwright.bench.unknown.drawn import world
 from gaitwright.bench.unknown.eyes import Camera, look
@@ -54,18 +53,13 @@ FIRST_TRIPS = (
 
 def measure(context: Context) -> Iterator[Figure]:
     """Right answers, travel, time and plans of everyone."""
-    everyone = tuple(name for name in (LEARNED, *BASELINES) if is_there(name))
+    everyone = (LEARNED, *BASELINES)
     load(everyone)  # compiles before workers would, side by side
     asked = [Asked(context.seed, number, everyone) for number in numbers(context)]
     found = context.each("unknown worlds", toured, asked)
-    if is_there(LEARNED):
-        yield from of_learned_map(found, everyone)
-        yield from of_thesis(context, asked)
-        yield from of_noise(context, asked)
-    else:
-        yield Figure(
-            f"{LEARNED}: worlds with a wrong answer", float("nan"), "", at_most(0.0), 0, "not built yet"
-        )
+    yield from of_learned_map(found, everyone)
+    yield from of_thesis(context, asked)
+    yield from of_noise(context, asked)
     for name in BASELINES:
         yield standings.wrong_answers(found, name, None)
         for trip in (0, 3):

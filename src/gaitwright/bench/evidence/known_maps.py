@@ -11,7 +11,7 @@ from gaitwright.bench.context import Context
 from gaitwright.bench.measurement import Figure, Wanted, at_most
 from gaitwright.bench.peers.rules_client import RulesPeer
 from gaitwright.navigation.learned_map import LearnedMap
-from gaitwright.navigation.sight import Sight
+from gaitwright.signals import Sight
 
 RADIUS = 0.16
 """Of the disc that is planned for [m]."""

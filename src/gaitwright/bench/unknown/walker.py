@@ -4,6 +4,7 @@ It never enters an obstacle: what its planner does not know of, it touches.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from time import perf_counter
 from typing import Protocol, runtime_checkable
@@ -37,7 +38,7 @@ class Way(Protocol):
     """A planned way."""
 
     @property
-    def path(self) -> Float[np.ndarray, "n 2"]:
+    def path(self) -> Sequence[Point] | Float[np.ndarray, "n 2"]:
         """Way-points [m], the start left out, the goal included."""
         ...
 
