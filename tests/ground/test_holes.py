@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import shapely
 
-from gaitwright.ground.holes import Hole, Pitted, dug
+from gaitwright.ground.holes import Hole, Pitted, dug, filled
 from gaitwright.ground.outlines import outline_of, regular
 from gaitwright.ground.scene import Scene
 from gaitwright.ground.terrain import Box, Flat, HeightField, Slope, Surface
@@ -52,6 +52,15 @@ def test_nodes_of_a_field_are_lowered() -> None:
     )
     gone = (field.heights - lower.heights).ravel()
     np.testing.assert_allclose(gone[clear], depths(at_x, at_y)[clear], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "surface", [Flat(), Slope(0.2, -0.1), HeightField(-3.0, -3.0, 0.5, np.arange(169.0).reshape(13, 13))]
+)
+def test_filled_ground_is_as_before(surface: Surface, rng: np.random.Generator) -> None:
+    x, y = rng.uniform(-3.0, 3.0, (2, 500))
+    again = filled(dug(surface, HOLES), HOLES)
+    np.testing.assert_allclose(again.height(x, y), surface.height(x, y), atol=1e-12)
 
 
 def test_no_hole_changes_nothing() -> None:

@@ -7,7 +7,7 @@ import numpy as np
 from gaitwright.ground.holes import Hole, dug
 from gaitwright.ground.layout import Bounds, Layout, scaled
 from gaitwright.ground.outlines import outline_of, regular
-from gaitwright.ground.scattering import between, scattered
+from gaitwright.ground.scattering import between, clear_of, scattered
 from gaitwright.ground.solids import Cylinder, Prism, Wedge
 from gaitwright.ground.terrain import Box, HeightField, Solid, smooth_step
 
@@ -53,12 +53,8 @@ def _stretch(at: float) -> Bounds:
 
 def _blocks(at: float, difficulty: float, rng: np.random.Generator) -> list[Solid]:
     """Two to five high ones to walk around, low ones to step on, of three shapes."""
-
-    def anywhere(*_: float) -> bool:
-        return True
-
-    high = scattered(rng, round(between(2.0, 5.0, difficulty)), _stretch(at), (0.15, 0.35), 0.9, anywhere)
-    low = scattered(rng, 14, _stretch(at), (0.1, 0.2), 0.05, anywhere, high)
+    high = scattered(rng, round(between(2.0, 5.0, difficulty)), _stretch(at), (0.15, 0.35), 0.9)
+    low = scattered(rng, 14, _stretch(at), (0.1, 0.2), 0.05, clear_of(high, 0.05))
     out: list[Solid] = []
     for places, heights in ((high, (0.3, 0.5)), (low, (0.02, 0.04))):
         for x, y, radius in places:
@@ -78,7 +74,7 @@ def _holes(at: float, difficulty: float, rng: np.random.Generator) -> list[Hole]
     """Holes for a leg to fall into, and some to walk around."""
     largest = between(0.08, 0.14, difficulty)
     many = round(between(6.0, 22.0, difficulty))
-    places = scattered(rng, many, _stretch(at), (0.05, largest), 0.25, lambda *_: True)
+    places = scattered(rng, many, _stretch(at), (0.05, largest), 0.25)
     return [Hole(outline_of(regular(x, y, radius, 12)), 0.25) for x, y, radius in places]
 
 

@@ -71,8 +71,22 @@ def dug(surface: Surface, holes: Sequence[Hole]) -> Surface:
     if isinstance(surface, Flat | Slope):
         return Pitted(surface, tuple(holes))
     assert isinstance(surface, HeightField)
-    rows, columns = surface.heights.shape
-    x = surface.x_min + surface.spacing * np.arange(columns)
-    y = surface.y_min + surface.spacing * np.arange(rows)
-    deep = depth_at(relief_of(holes), x[None, :], y[:, None])
-    return replace(surface, heights=surface.heights - deep)
+    return replace(surface, heights=surface.heights - _depth_of_nodes(surface, holes))
+
+
+def filled(surface: Surface, holes: Sequence[Hole]) -> Surface:
+    """The same ground without the holes that were dug in it."""
+    if isinstance(surface, Pitted):
+        return surface.plane
+    if not holes:
+        return surface
+    assert isinstance(surface, HeightField)
+    return replace(surface, heights=surface.heights + _depth_of_nodes(surface, holes))
+
+
+def _depth_of_nodes(field: HeightField, holes: Sequence[Hole]) -> Float[np.ndarray, "rows columns"]:
+    """How deep each node of a field lies in holes [m]."""
+    rows, columns = field.heights.shape
+    x = field.x_min + field.spacing * np.arange(columns)
+    y = field.y_min + field.spacing * np.arange(rows)
+    return np.asarray(depth_at(relief_of(holes), x[None, :], y[:, None]))

@@ -1,7 +1,7 @@
 """Things thrown at random over a field, apart from each other and from where they must not lie."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
@@ -12,8 +12,10 @@ FREE = 0.8
 TRIES = 30
 """A thing that finds no place in so many tries is left out."""
 
+Circle = tuple[float, float, float]
+"""x, y, radius [m]."""
 Free = Callable[[float, float, float], bool]
-"""Whether a circle (x, y, radius) may lie somewhere."""
+"""Whether a circle may lie somewhere."""
 
 
 def between(easy: float, hard: float, difficulty: float) -> float:
@@ -21,9 +23,15 @@ def between(easy: float, hard: float, difficulty: float) -> float:
     return easy + (hard - easy) * difficulty
 
 
+def clear_of(circles: Iterable[Circle], gap: float) -> Free:
+    """Keeps a gap [m] from circles."""
+    taken = list(circles)
+    return lambda x, y, radius: all(math.hypot(x - a, y - b) >= radius + r + gap for a, b, r in taken)
+
+
 def free_of_ends(*ends: tuple[float, float]) -> Free:
     """Keeps start and goal free."""
-    return lambda x, y, radius: all(math.hypot(x - a, y - b) >= radius + FREE for a, b in ends)
+    return clear_of([(*end, 0.0) for end in ends], FREE)
 
 
 def scattered(
@@ -32,18 +40,16 @@ def scattered(
     where: Bounds,
     radii: tuple[float, float],
     gap: float,
-    may: Free,
-    before: Sequence[tuple[float, float, float]] = (),
-) -> list[tuple[float, float, float]]:
-    """Up to so many circles x, y, radius [m] within bounds, a gap apart from each other and those before."""
-    found: list[tuple[float, float, float]] = []
+    *may: Free,
+) -> list[Circle]:
+    """Up to so many circles within bounds, a gap apart [m], where all of `may` let them lie."""
+    found: list[Circle] = []
     for _ in range(many):
         for _try in range(TRIES):
             radius = float(rng.uniform(*radii))
             x = float(rng.uniform(where[0] + radius, where[2] - radius))
             y = float(rng.uniform(where[1] + radius, where[3] - radius))
-            others = (*before, *found)
-            if may(x, y, radius) and all(math.hypot(x - a, y - b) >= radius + r + gap for a, b, r in others):
+            if all(is_free(x, y, radius) for is_free in (*may, clear_of(found, gap))):
                 found.append((round(x, 3), round(y, 3), round(radius, 3)))
                 break
     return found

@@ -65,7 +65,8 @@ class Scene(Surface):
             return normal
         top = self._relief.look(x, y)
         on_solid = np.asarray(top[..., 0] >= self.surface.height(x, y))
-        return np.where(on_solid[..., None], upward(top[..., 1], top[..., 2]), normal)
+        of_solid = upward(top[..., 1], top[..., 2]) + 0.0  # a level top has no negative zeros
+        return np.where(on_solid[..., None], of_solid, normal)
 
     def friction_at(self, x: Number, y: Number) -> Number:
         """Coefficient of friction at a place [-]."""

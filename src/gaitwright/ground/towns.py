@@ -9,7 +9,7 @@ import numpy as np
 
 from gaitwright.ground.layout import Bounds, Layout, scaled
 from gaitwright.ground.outlines import outline_of, regular
-from gaitwright.ground.scattering import between, free_of_ends, scattered
+from gaitwright.ground.scattering import between, clear_of, free_of_ends, scattered
 from gaitwright.ground.solids import Cylinder, Prism, Sphere
 from gaitwright.ground.terrain import Box, Flat, Solid
 
@@ -25,8 +25,10 @@ def forest(difficulty: float, scale: float, rng: np.random.Generator) -> Layout:
     gap = between(1.2, 0.5, difficulty)
     may = free_of_ends((0.0, 0.0), GOAL)
     boulders = scattered(rng, 10, BOUNDS, (0.25, 0.5), gap, may)
-    trunks = scattered(rng, round(between(25.0, 130.0, difficulty)), BOUNDS, (0.06, 0.2), gap, may, boulders)
-    stumps = scattered(rng, 30, BOUNDS, (0.08, 0.2), 0.1, may, [*trunks, *boulders])
+    trunks = scattered(
+        rng, round(between(25.0, 130.0, difficulty)), BOUNDS, (0.06, 0.2), gap, may, clear_of(boulders, gap)
+    )
+    stumps = scattered(rng, 30, BOUNDS, (0.08, 0.2), 0.1, may, clear_of([*trunks, *boulders], 0.1))
     shapes: list[Solid] = [Cylinder(x, y, r, round(rng.uniform(0.6, 1.4), 3)) for x, y, r in trunks]
     for x, y, r in boulders:
         if rng.uniform() < 0.5:
@@ -194,16 +196,14 @@ def bugtrap(difficulty: float, scale: float, rng: np.random.Generator) -> Layout
     place = (7.0 - deep / 2, rng.uniform(-0.4, 0.4) * half)
     ring = (ring - (deep / 2, 0.0)) @ np.array([[c, s], [-s, c]]) + place + (deep / 2, 0.0)
     trap = Prism(outline_of(ring.round(4)), HIGH)
-    reach = trap.reach + 0.8
-    x, y = trap.centre
-    off = free_of_ends((0.0, 0.0), GOAL)
     pillars = scattered(
         rng,
         round(between(4.0, 14.0, difficulty)),
         BOUNDS,
         (0.15, 0.4),
         1.0,
-        lambda a, b, r: off(a, b, r) and math.hypot(a - x, b - y) > reach + r,
+        free_of_ends((0.0, 0.0), GOAL),
+        clear_of([(*trap.centre, trap.reach)], 0.8),
     )
     shapes = (trap, *(Cylinder(*pillar, HIGH) for pillar in pillars))
     return scaled(Layout(Flat(), (), BOUNDS, shapes=shapes, goal=GOAL), scale)

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LightSource, Normalize
 from matplotlib.patches import Polygon
 
-from gaitwright.ground.holes import Hole, depth_at, relief_of
+from gaitwright.ground.holes import Hole, filled
 from gaitwright.ground.scene import Scene
 from gaitwright.ground.terrain import Solid
 from gaitwright.pictures.style import EARTH, INK
@@ -34,8 +34,9 @@ def draw_relief(ax: Axes, scene: Scene, extent: Extent) -> None:
     rows = max(round(FINE * min(1.0, high / wide)), 2)
     x, y = np.linspace(*extent[:2], columns), np.linspace(*extent[2:], rows)
     heights = np.asarray(scene.height(x[None, :], y[:, None]), dtype=float)
-    ground = filled(scene, x[None, :], y[:, None])
-    heights = np.maximum(heights, ground)  # holes are drawn by their outlines
+    level = filled(scene.surface, scene.holes)  # holes are drawn by their outlines
+    ground = np.asarray(level.height(x[None, :], y[:, None]), dtype=float)
+    heights = np.maximum(heights, ground)
     if np.ptp(heights) < FLATTEST:
         return
     low, top = float(ground.min()), float(ground.max())
@@ -47,12 +48,6 @@ def draw_relief(ax: Axes, scene: Scene, extent: Extent) -> None:
     if np.ptp(ground) < FLATTEST:
         lit[..., 3] = heights > ground + FLATTEST  # level ground is left plain
     ax.imshow(lit, extent=extent, origin="lower", interpolation="bilinear", zorder=1)
-
-
-def filled(scene: Scene, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Height of the ground without its holes and without what stands on it [m]."""
-    ground = np.asarray(scene.surface.height(x, y), dtype=float)
-    return ground + depth_at(relief_of(scene.holes), x, y) if scene.holes else ground
 
 
 def draw_things(ax: Axes, scene: Scene, obstacles: Collection[Solid | Hole]) -> None:

@@ -10,10 +10,11 @@ from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon, Rectangle
 
+from gaitwright.ground.holes import filled
 from gaitwright.ground.scene import Scene
 from gaitwright.model.kinematics import feet
 from gaitwright.numerics.geometry import rotation
-from gaitwright.pictures.ground import HIGH, LOW_EDGE, PIT, draw_things, filled
+from gaitwright.pictures.ground import HIGH, LOW_EDGE, PIT, draw_things
 from gaitwright.pictures.style import EARTH, INK, MAP, SKILLS, dress
 from gaitwright.pictures.thin import shown
 from gaitwright.record.metrics import heading_over_time, stretches, touchdowns
@@ -77,7 +78,8 @@ def draw_ground(ax: Axes, r: Recording, scene: Scene, bounds: tuple[float, float
     ax.set_facecolor("#f4f1ea")
     extent = (bounds[0], bounds[2], bounds[1], bounds[3])
     x, y = np.linspace(*extent[:2], 600), np.linspace(*extent[2:], 300)
-    height = filled(scene, x[None, :], y[:, None])
+    level = filled(scene.surface, scene.holes)  # holes are drawn by their outlines
+    height = np.asarray(level.height(x[None, :], y[:, None]))
     if np.ptp(height) > 1e-6:
         image = ax.imshow(height, extent=extent, origin="lower", cmap=EARTH, interpolation="bilinear")
         bar = ax.figure.colorbar(image, cax=ax.inset_axes((0.975, 0.06, 0.008, 0.8)))

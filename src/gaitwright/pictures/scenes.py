@@ -12,6 +12,7 @@ from matplotlib.patches import Patch
 
 from gaitwright.files import whole
 from gaitwright.ground.scene import Scene
+from gaitwright.ground.terrain import Flat, Slope
 from gaitwright.pictures import Sheet
 from gaitwright.pictures.ground import HIGH, LOW_EDGE, PIT, draw_relief, draw_things
 from gaitwright.pictures.style import INK, LEFT, WIDTH, dress
@@ -23,7 +24,7 @@ TOP, GAP, BELOW, TITLE = 1.15, 0.55, 0.5, 0.35
 TALLEST = 6.5
 """Of a panel [in]."""
 WIDEST = 16.0
-"""Of a wide field so much is shown around start and goal [m]."""
+"""Of an empty plane so much is shown around the start [m]."""
 
 
 def scenes_picture(scenes: Sequence[Scene], step: float, path: str | Path) -> Path:
@@ -65,18 +66,12 @@ def draw_scene(ax: Axes, scene: Scene, step: float) -> None:
 
 
 def view(scene: Scene) -> tuple[float, float, float, float]:
-    """What is shown of a scene, x_min, x_max, y_min, y_max [m]: of a wide one what is around its ends."""
+    """What is shown of a scene, x_min, x_max, y_min, y_max [m]: all, but of an empty plane."""
     x_min, y_min, x_max, y_max = scene.bounds
-    ends = [scene.start[:2], *([scene.goal] if scene.goal else [])]
-    x = sum(end[0] for end in ends) / len(ends)
-    y = sum(end[1] for end in ends) / len(ends)
-    half = max(WIDEST, 1.3 * math.dist(ends[0], ends[-1])) / 2
-    wide = x_max - x_min > 40.0 or y_max - y_min > 40.0
-    return (
-        (max(x_min, x - half), min(x_max, x + half), max(y_min, y - half / 2), min(y_max, y + half / 2))
-        if wide
-        else (x_min, x_max, y_min, y_max)
-    )
+    if scene.solids or scene.goal or not isinstance(scene.surface, Flat | Slope):
+        return x_min, x_max, y_min, y_max
+    x, y, half = *scene.start[:2], WIDEST / 2
+    return max(x_min, x - half), min(x_max, x + half), max(y_min, y - half / 2), min(y_max, y + half / 2)
 
 
 def _aspect(scene: Scene) -> float:

@@ -243,6 +243,7 @@ COMMANDS: tuple[tuple[str, ...], ...] = (
     ("books", "confirm", "sound.skills", "nothing"),
     ("books", "forget", "sound.skills", "nothing"),
     ("balance", "sound.json", "--forget", "left+:stop", "--out", "rest.json"),
+    ("scenes", "--plot", "nothing", "sound.json", "sound.png", "--out", "there.png"),
     ("bench", "walks", "--nothing"),
     ("reproduce", "nothing", "--out", "there"),
     ("teach", "--robot", "nothing", "--out", "new.skills", "--trips", "1"),
