@@ -23,7 +23,7 @@ BRIDGED = 2
 """So many unknown cells between two that lie level with each other are ground like them: rays leave such
 gaps, and they are narrower than a foot."""
 
-FAR = 1_000_000
+FAR = 30_000
 """Cells away: there is none."""
 
 
@@ -89,13 +89,13 @@ def fill(heights, known, edge):
     known.
     """
     n, last = heights.shape[0], 0.0
-    west, south = np.empty((n, n), np.int32), np.empty((n, n), np.int32)
+    west, south = np.empty((n, n), np.int16), np.empty((n, n), np.int16)
     for u in range(n):  # how many cells away the last known one is
         for v in range(n):
             west[u, v] = 0 if known[u, v] > 0.0 else west[u, v - 1] + 1 if v > 0 else FAR
             south[u, v] = 0 if known[u, v] > 0.0 else south[u - 1, v] + 1 if u > 0 else FAR
             last = heights[u, v] if known[u, v] > 0.0 else last
-    north = np.full(n, FAR, np.int32)
+    north = np.full(n, FAR, np.int64)
     for u in range(n - 1, -1, -1):
         east = FAR
         for v in range(n - 1, -1, -1):
@@ -119,10 +119,7 @@ def fill(heights, known, edge):
                 z_b = heights[u, v + b] if b < FAR else z_b
             heights[u, v] = z_a if a < b else z_b
             if a + b <= BRIDGED + 1 and abs(z_a - z_b) <= edge:
-                heights[u, v], known[u, v] = (b * z_a + a * z_b) / (a + b), 0.5
-    for u in range(n):
-        for v in range(n):
-            known[u, v] = 1.0 if known[u, v] > 0.0 else 0.0
+                heights[u, v], known[u, v] = (b * z_a + a * z_b) / (a + b), 1.0
     return last
 
 
