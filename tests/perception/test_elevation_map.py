@@ -78,7 +78,7 @@ def test_without_noise_cells_of_one_height_are_right_to_a_centimetre(boxes, shar
     scene = crowd(boxes)
     seen, _, _ = walked(DOG, scene, CAMERA, WALK)
     x, y = seen.places()
-    inner = (np.arange(7) - 3) / 7 * seen.spacing
+    inner = np.linspace(-0.5, 0.5, 7) * seen.spacing
     tops = np.array([scene.height(x[None, :] + a, y[:, None] + b) for a in inner for b in inner])
     looked_at = seen.known & (seen.layer(VARIANCE) < 1e-4)  # not only supposed
     one = looked_at & (np.ptp(tops, axis=0) == 0.0)
