@@ -12,10 +12,19 @@ from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.ground.terrain import Box, Flat
 from gaitwright.model.camera import Camera
 from gaitwright.numerics.geometry import rotation
-from gaitwright.perception.elevation_map import FELT, ElevationMap, felt, fused, standing
+from gaitwright.perception.elevation_map import (
+    FELT,
+    ElevationMap,
+    carrying,
+    felt,
+    fused,
+    lowest_points,
+    standing,
+)
 from gaitwright.perception.fusing import FLOOR, HEIGHT, HIGH, LOW, VARIANCE
 from gaitwright.plant.eyes import Eyes
-from gaitwright.signals import DepthFrame
+from gaitwright.plant.mujoco.simulation import MujocoPlant
+from gaitwright.signals import DepthFrame, MotorCommand, Sensed
 from oracles import robot_called
 from sights import crowd, footprints, posed, walked
 
@@ -69,7 +78,7 @@ def test_without_noise_cells_of_one_height_are_right_to_a_centimetre(boxes, shar
     scene = crowd(boxes)
     seen, _, _ = walked(DOG, scene, CAMERA, WALK)
     x, y = seen.places()
-    inner = (np.arange(7) - 3) / 7 * seen.spacing
+    inner = np.linspace(-0.5, 0.5, 7) * seen.spacing
     tops = np.array([scene.height(x[None, :] + a, y[:, None] + b) for a in inner for b in inner])
     looked_at = seen.known & (seen.layer(VARIANCE) < 1e-4)  # not only supposed
     one = looked_at & (np.ptp(tops, axis=0) == 0.0)
@@ -219,6 +228,27 @@ def test_a_foot_that_agrees_changes_nothing_and_one_far_away_neither():
     seen, _, _ = walked(DOG, load_scene("flat"), CAMERA, WALK)
     after = felt(seen, np.array([[1.5, 0.1, 0.002], [50.0, 0.0, 1.0]]), 0.03, 7.0)
     np.testing.assert_array_equal(after.cells, seen.cells)
+
+
+def test_feet_that_carry_tell_where_the_ground_is():
+    """A robot that settled on a scene in MuJoCo: its lowest points are on the ground, to its own softness."""
+    scene = load_scene("rough:0.03", seed=4)
+    plant = MujocoPlant(DOG, scene)
+    measured = plant.reset(0, vary=False)
+    still = np.zeros((DOG.n, 3))
+    hold = MotorCommand(still, still, q=measured.q, qd=still, kp=still + 60.0, kd=still + 1.5)
+    for _ in range(300):
+        measured = plant.step(hold)
+    down = carrying(DOG, measured)
+    points = lowest_points(DOG, measured)[down]
+    assert down.sum() >= 3
+    np.testing.assert_allclose(points[:, 2], scene.height(points[:, 0], points[:, 1]), atol=0.006)
+    seen = felt(EMPTY, points, float(DOG.foot_radius.max()), measured.time)
+    assert seen.known.sum() >= 3
+    row = measured.row.copy()
+    aloft = Sensed.of_row(row, time=measured.time)
+    aloft.load[:] = 0.0
+    assert not carrying(DOG, aloft).any()
 
 
 def test_at_the_start_the_ground_is_what_the_feet_stand_on():

@@ -97,6 +97,6 @@ def test_things_are_those_of_scipy(seed, share, near):
     for one in set(labels):
         assert len(set(mine[tuple(graph[labels == one].T)])) == 1
     if near == 1:
-        labelled = np.zeros(mask.shape, np.int64)
-        ndimage.label(mask, np.ones((3, 3)), labelled)
-        assert count == labelled.max(initial=0)
+        of_scipy = np.zeros(mask.shape, np.int64)
+        ndimage.label(mask, np.ones((3, 3)), of_scipy)
+        assert count == of_scipy.max()

@@ -58,6 +58,24 @@ def test_where_all_was_seen_it_is_the_known_ground(name):
     assert (theirs & sure <= dilated(ours)).mean() >= 0.999
 
 
+def test_noise_breaks_no_even_ground_and_hides_no_step():
+    """What lies before the robot after a walk, with 2 cm of noise and a third of the rays lost."""
+    noisy = replace(CAMERA, noise=0.02, dropouts=0.3)
+    fit = {}
+    for name in ("flat", "boxes:0.08"):
+        scene = load_scene(name)
+        seen, _, _ = walked(DOG, scene, noisy, np.arange(-1.5, 0.6, 0.04))
+        grid, (x, y) = footholds_of(seen), seen.places()
+        part = np.ix_(np.flatnonzero(np.abs(y) < 0.25), np.flatnonzero((x > 0.8) & (x < 1.5)))
+        fit[name] = grid.edges[part] < 0.5
+    assert fit["flat"].mean() >= 0.95
+    columns = x[(x > 0.8) & (x < 1.5)]
+    face = np.abs(columns - 1.2) < 1.01 * seen.spacing
+    assert fit["boxes:0.08"][:, face].mean() <= 0.1
+    away = np.abs(columns - 1.2) > 4.0 * seen.spacing
+    assert fit["boxes:0.08"][:, away & (columns < 1.2)].mean() >= 0.9
+
+
 def test_on_the_unknown_no_foot_stands_and_nothing_else_comes_of_it():
     scene = load_scene("slope:10")
     sensed = posed(DOG, scene, (0.0, 0.0))
@@ -111,7 +129,8 @@ def test_breaks_are_those_of_the_known_grid(seed):
     rng = np.random.default_rng(seed)
     heights = np.repeat(rng.uniform(0.0, 0.1, (6, 12)), 2, axis=0)
     mine = np.zeros(heights.shape)
-    mark_breaks(heights, np.ones(heights.shape), 0.05, mine)
+    sure = np.zeros((12, 12, 5), np.float32)
+    mark_breaks(heights, np.ones(heights.shape), 0.05, mine, sure, (0, 0))
     np.testing.assert_array_equal(mine[2:-2, 2:-2], edges(heights, 0.05)[2:-2, 2:-2])
 
 

@@ -12,9 +12,10 @@ import numpy as np
 from jaxtyping import Bool, Float, Float32
 
 from gaitwright.ground.elevation import EDGE, SPACING
+from gaitwright.model import kinematics
 from gaitwright.model.camera import Camera
 from gaitwright.model.robot import Robot
-from gaitwright.numerics.geometry import rotation
+from gaitwright.numerics.geometry import GRAVITY, rotation
 from gaitwright.perception.fusing import HEIGHT, HIGH, LOW, SEEN, VARIANCE, feel, fuse
 from gaitwright.signals import DepthFrame, Sensed
 
@@ -26,6 +27,8 @@ FELT = 0.003
 """Standard deviation of a height that a foot felt [m]."""
 SUPPOSED = 0.1
 """Standard deviation, in body heights, of ground that is only supposed: any look replaces it."""
+LOADED = 0.1
+"""A foot that carries this share of the weight rests on the ground; less is a touch."""
 AROUND = 1.0
 """The ground that feet stand on at the start is supposed to go on so far beyond them, in body heights: up to
 what the camera sees first."""
@@ -126,6 +129,17 @@ def fused(before: ElevationMap, frame: DepthFrame, camera: Camera, sensed: Sense
         before.keep,
     )
     return replace(before, first=first, cells=cells)
+
+
+def lowest_points(robot: Robot, sensed: Sensed) -> Float[np.ndarray, "legs 3"]:
+    """Where the feet of a robot touch the ground, if they do, world [m]."""
+    centres = sensed.position_w + kinematics.feet(robot, sensed.q) @ rotation(sensed.orientation_wb).T
+    return centres - np.outer(robot.foot_radius, [0.0, 0.0, 1.0])
+
+
+def carrying(robot: Robot, sensed: Sensed) -> Bool[np.ndarray, "legs"]:
+    """Which feet carry enough to tell where the ground is."""
+    return sensed.load > LOADED * robot.total_mass * GRAVITY
 
 
 def felt(

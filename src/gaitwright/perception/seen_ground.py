@@ -23,13 +23,15 @@ BRIDGED = 2
 """So many unknown cells between two that lie level with each other are ground like them: rays leave such
 gaps, and they are narrower than a foot."""
 
-FAR = 1_000_000
+VAGUE = 2.0
+"""A break must be more than an edge by so many standard deviations of what was seen, or be twice one [-]."""
+FAR = 30_000
 """Cells away: there is none."""
 
 
 def footholds_of(seen: ElevationMap) -> ElevationGrid:
     """The ground for feet: nodes are the middles of the map's cells."""
-    heights, edges, known = np.empty((seen.n, seen.n)), np.empty((seen.n, seen.n)), np.empty((seen.n, seen.n))
+    heights, edges, known = (np.empty((seen.n, seen.n)) for _ in range(3))
     write_grid(seen.cells, seen.first, seen.edge, heights, edges, known)
     row, column = seen.first
     return ElevationGrid(np.array([column * seen.spacing, row * seen.spacing, seen.spacing]), heights, edges)
@@ -74,7 +76,7 @@ def write_grid(cells, first, edge, heights, edges, known):
             heights[u, v] = cells[i, j, HIGH] if split else cells[i, j, HEIGHT]
             edges[u, v] = 1.0 if split else 0.0
     somewhere = fill(heights, known, edge)
-    mark_breaks(heights, known, edge, edges)
+    mark_breaks(heights, known, edge, edges, cells, first)
     for u in range(n):
         for v in range(n):
             edges[u, v] = max(edges[u, v], 1.0 - known[u, v])
@@ -89,13 +91,13 @@ def fill(heights, known, edge):
     known.
     """
     n, last = heights.shape[0], 0.0
-    west, south = np.empty((n, n), np.int32), np.empty((n, n), np.int32)
+    west, south = np.empty((n, n), np.int16), np.empty((n, n), np.int16)
     for u in range(n):  # how many cells away the last known one is
         for v in range(n):
             west[u, v] = 0 if known[u, v] > 0.0 else west[u, v - 1] + 1 if v > 0 else FAR
             south[u, v] = 0 if known[u, v] > 0.0 else south[u - 1, v] + 1 if u > 0 else FAR
             last = heights[u, v] if known[u, v] > 0.0 else last
-    north = np.full(n, FAR, np.int32)
+    north = np.full(n, FAR, np.int64)
     for u in range(n - 1, -1, -1):
         east = FAR
         for v in range(n - 1, -1, -1):
@@ -119,18 +121,25 @@ def fill(heights, known, edge):
                 z_b = heights[u, v + b] if b < FAR else z_b
             heights[u, v] = z_a if a < b else z_b
             if a + b <= BRIDGED + 1 and abs(z_a - z_b) <= edge:
-                heights[u, v], known[u, v] = (b * z_a + a * z_b) / (a + b), 0.5
-    for u in range(n):
-        for v in range(n):
-            known[u, v] = 1.0 if known[u, v] > 0.0 else 0.0
+                heights[u, v], known[u, v] = (b * z_a + a * z_b) / (a + b), 1.0
     return last
 
 
 @kernel
-def mark_breaks(heights, known, step, edges):
+def doubt(cells, first, u, v, du, dv):
+    """Standard deviation of the break in a node of the window between two beside it [m]."""
+    n, variance = cells.shape[0], 0.0
+    for k in range(-1, 2):
+        of = cells[slot(first[0] + u + k * du, n), slot(first[1] + v + k * dv, n), VARIANCE]
+        variance += (4.0 if k == 0 else 1.0) * of if of < math.inf else 0.0
+    return math.sqrt(variance)
+
+
+@kernel
+def mark_breaks(heights, known, step, edges, cells, first):
     """The law of `ground.elevation.edges`: 1 where the ground breaks by more than `step` [m] near by.
 
-    A break is seen by two places at least: what the unknown was filled with makes none.
+    A break is seen by two places at least: what the unknown was filled with makes none. Nor does noise.
     """
     n, half = heights.shape[0], MARGIN // 2
     for u in range(half, n - half):
@@ -138,5 +147,10 @@ def mark_breaks(heights, known, step, edges):
             twice = 2.0 * heights[u, v]
             for du, dv in ((0, half), (half, 0), (half, half), (half, -half)):
                 seen = known[u - du, v - dv] + known[u, v] + known[u + du, v + dv]
-                if seen > 1.5 and abs(heights[u - du, v - dv] - twice + heights[u + du, v + dv]) > step:
+                off = abs(heights[u - du, v - dv] - twice + heights[u + du, v + dv])
+                if (
+                    off > step
+                    and seen > 1.5
+                    and off > step + min(VAGUE * doubt(cells, first, u, v, du, dv), step)
+                ):
                     edges[u - du, v - dv] = edges[u + du, v + dv] = 1.0

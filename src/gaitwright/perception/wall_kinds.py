@@ -72,6 +72,8 @@ def kind_of(cells, first, spacing, x, y, z, way_x, way_y, level, limits):
     top = z
     if cells[i, j, VARIANCE] < math.inf:
         top = max(z, cells[i, j, HEIGHT] - 2.0 * math.sqrt(cells[i, j, VARIANCE]))
+    if abs(z - level) < FOOT * step and top - level <= step:  # as level as what was in view before it
+        return GROUND
     before, _ = highest_before(cells, first, spacing, x, y, way_x, way_y, limits)
     if before == -math.inf:
         before = cells[i, j, LOW] if math.isnan(level) else level

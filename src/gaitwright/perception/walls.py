@@ -37,8 +37,11 @@ OBLIQUE = 2.0 * 2.0 * math.pi / SECTORS
 """A face seen from the side recedes in a sector by up to this share of its distance: 63° off the square."""
 BLIND = 3.0
 """Ground that was seen nearer than this, in body heights, is free all the way: pixels are far apart there."""
-BENT = 0.75
-"""A run is broken where it leaves its chord by more than this, in cells: half a cell, and rounding."""
+FEW = 4
+"""Fewer hits than this in a sector are no wall to a camera with noise."""
+BENT, VAGUE = 0.75, 2.0
+"""A run is broken where it leaves its chord by more than so many cells (half a cell, and rounding) and
+standard deviations of a range."""
 
 
 def sight_of(seen: ElevationMap, frame: DepthFrame, camera: Camera, sensed: Sensed, step: float) -> Sight:
@@ -63,7 +66,9 @@ def sight_of(seen: ElevationMap, frame: DepthFrame, camera: Camera, sensed: Sens
         points,
     )
     pieces, corners = np.empty((3 * SECTORS, 4)), np.empty((3 * SECTORS, 2), np.bool_)
-    count = join(sectors, points, (eye[0], eye[1]), narrow, BENT * seen.spacing, pieces, corners)
+    vague = camera.noise + camera.noise_growth * (0.5 * camera.range) ** 2
+    bent = BENT * seen.spacing + VAGUE * vague
+    count = join(sectors, points, (eye[0], eye[1]), narrow, bent, pieces, corners)
     place = float(eye[0]), float(eye[1])
     return Sight(place, pieces[:count].copy(), corners[:count].copy(), rim(sectors, place))
 
@@ -140,7 +145,7 @@ def look(cells, first, spacing, eye, R_wc, rays, ranges, noise, limits, sectors,
 def gather(eye, R_wc, rays, ranges, noise, spacing, kinds, sectors, points):
     """Writes the points of each sector's wall: the mean of its hits, and those farthest right and left."""
     columns = ranges.shape[1]
-    count, ends = np.zeros(SECTORS), np.empty((SECTORS, 2))
+    count, ends, kind = np.zeros(SECTORS), np.empty((SECTORS, 2)), np.zeros(SECTORS, np.int8)
     points[:], ends[:, 0], ends[:, 1] = 0.0, math.inf, -math.inf
     for k in range(kinds.size):
         if kinds[k] < RIM:
@@ -153,8 +158,9 @@ def gather(eye, R_wc, rays, ranges, noise, spacing, kinds, sectors, points):
         x, y = eye[0] + far * ray[0], eye[1] + far * ray[1]
         middle = 2.0 * math.pi * (s + 0.5) / SECTORS
         beside = math.cos(middle) * ray[1] - math.sin(middle) * ray[0]
-        if behind <= 0.0:
-            count[s] += 1.0
+        if behind <= 0.0 and kinds[k] >= kind[s]:  # hits on the face count alone, where there are any
+            count[s] = count[s] + 1.0 if kinds[k] == kind[s] else 1.0
+            kind[s] = kinds[k]
             points[s, NEAREST, 0] += (x - points[s, NEAREST, 0]) / count[s]
             points[s, NEAREST, 1] += (y - points[s, NEAREST, 1]) / count[s]
         if beside < ends[s, 0]:
@@ -163,7 +169,9 @@ def gather(eye, R_wc, rays, ranges, noise, spacing, kinds, sectors, points):
             ends[s, 1], points[s, LEFT, 0], points[s, LEFT, 1] = beside, x, y
     if noise[0] + noise[1] > 0.0:  # a single hit is no place: the ends are as far away as the mean
         for s in range(SECTORS):
-            if count[s] > 0.0:
+            if count[s] < FEW:
+                sectors[s, WALL] = math.inf
+            else:
                 mean = math.hypot(points[s, NEAREST, 0] - eye[0], points[s, NEAREST, 1] - eye[1])
                 for end in (RIGHT, LEFT):
                     dx, dy = points[s, end, 0] - eye[0], points[s, end, 1] - eye[1]

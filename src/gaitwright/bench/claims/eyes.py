@@ -34,7 +34,7 @@ WALK, SPEED = 4.0, 0.4
 """Way of the robot along x [m], and how fast it goes [m/s]."""
 CENTIMETRE = 0.01
 FINE = 7
-"""Places along each side of a cell that are asked for their true height."""
+"""Places along each side of a cell, from rim to rim, that are asked for their true height."""
 SURE = 1e-4
 """Variance below which a height was seen, not only supposed [m²]."""
 TRIES = 8
@@ -149,7 +149,7 @@ def errors_of(taken: Walk, what: str, clean: bool) -> Iterator[Figure]:
     """How near heights and walls are to the true ones."""
     seen, scene = taken.seen, taken.scene
     x, y = seen.places()
-    inner = (np.arange(FINE) - FINE // 2) / FINE * seen.spacing
+    inner = np.linspace(-0.5, 0.5, FINE) * seen.spacing
     low, high = np.full((2, seen.n, seen.n), np.inf) * [[[1.0]], [[-1.0]]]
     for a in inner:
         for b in inner:
