@@ -22,13 +22,15 @@ from plane_world import (
     turned,
     walk,
 )
-from shapely import LineString
+from shapely import LineString, Polygon
 
 from gaitwright.errors import WrongUse
 from gaitwright.navigation.learned_map import LearnedMap
+from gaitwright.navigation.obstacles import PlanView
 from gaitwright.navigation.piece_rows import FELT, KIND, SEEN
 from gaitwright.navigation.sight import Sight
 from gaitwright.navigation.tolerances import CHECK, LINK, NODE, STOP, TOUCH, WORTH
+from gaitwright.navigation.visibility import shortest_path
 
 BOUNDS = (0.0, 0.0, 6.0, 6.0)
 START, GOAL = (0.6, 0.6), (5.4, 5.4)
@@ -78,6 +80,25 @@ def test_round_a_pole_a_disc_goes_along_its_polygon() -> None:
     straight, angle = math.sqrt(4.0 - 0.25), 2.0 * math.asin(0.25)
     exact = 2.0 * straight + 0.5 * angle
     assert exact <= way.length <= exact * 1.002
+
+
+@given(st.integers(0, 10_000))
+def test_it_is_as_good_as_corners_of_mitred_outlines(seed: int) -> None:
+    """Beside `visibility`, which grows outlines without rounding them: never longer."""
+    rng = np.random.default_rng(seed)
+    drawn = np.hstack(
+        [rng.uniform(1.0, 5.0, (8, 2)), rng.uniform(0.2, 1.5, (8, 2)), rng.uniform(0.0, 3.0, (8, 1))]
+    )
+    boxes = [box_at(*numbers) for numbers in drawn.tolist()]
+    mitred = {"join_style": "mitre", "mitre_limit": 1.5}
+    grown = shapely.union_all([Polygon(box).buffer(RADIUS + 1e-3, **mitred) for box in boxes])
+    view = PlanView(tuple(getattr(grown, "geoms", [grown])), shapely.box(*BOUNDS).buffer(-RADIUS - 1e-3))
+    if view.blocked(START) or view.blocked(GOAL):
+        return
+    theirs = shortest_path(view, START, GOAL)
+    way = LearnedMap.of_polygons(BOUNDS, RADIUS, boxes).way(START, GOAL)
+    if theirs is not None:
+        assert way.length <= LineString([START, *theirs]).length + 1e-9
 
 
 WALLS = {
