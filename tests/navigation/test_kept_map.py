@@ -21,7 +21,7 @@ def learned() -> LearnedMap:
     made = LearnedMap.of(BOUNDS, RADIUS, noise=0.002)
     for eye in ((1.0, 1.0), (5.0, 4.0)):
         made = made.seen(look(edges, eye))
-    return made.felt((2.0, 2.0), 0.3).walked([(1.0, 1.0), (1.0, 4.0), (5.0, 4.0)])
+    return made.walked([(1.0, 1.0), (1.0, 4.0), (5.0, 4.0)]).felt((2.0, 2.0), 0.3)
 
 
 def test_what_was_kept_is_the_same() -> None:

@@ -27,7 +27,7 @@ from shapely import LineString, Polygon
 from gaitwright.errors import WrongUse
 from gaitwright.navigation.learned_map import LearnedMap
 from gaitwright.navigation.obstacles import PlanView
-from gaitwright.navigation.piece_rows import FELT, KIND, SEEN
+from gaitwright.navigation.piece_rows import FELT, KIND, SEEN, SUPPOSED
 from gaitwright.navigation.sight import Sight
 from gaitwright.navigation.tolerances import CHECK, LINK, NODE, STOP, TOUCH, WORTH
 from gaitwright.navigation.visibility import shortest_path
@@ -266,13 +266,16 @@ def test_only_what_lies_in_seen_ground_is_unlearned() -> None:
     assert sorted(map(tuple, learned.corners.tolist())) == [(False, True), (True, False)]
 
 
-def test_what_was_felt_stays_until_it_is_walked_through() -> None:
+def test_what_was_felt_stays_until_the_trip_is_over_or_leads_through_it() -> None:
     learned = empty().felt((3.0 - RADIUS, 3.0), 0.0)
     assert learned.is_cut([(2.5, 3.0), (3.5, 3.0)]) and not learned.is_cut([(3.5, 2.0), (3.5, 4.0)])
     assert len(learned.way((2.5, 3.0), (3.5, 3.0)).path) > 1 and len(learned.pieces) == 2
     learned = learned.seen(sight(free=[(2.0, 2.0), (4.0, 2.0), (4.0, 4.0), (2.0, 4.0)]))
     np.testing.assert_allclose(np.sort(learned.pieces[:, 1::2]), [[2.999, 3.001]])
     assert len(learned.walked([(2.0, 3.0), (4.0, 3.0)]).pieces) == 0
+    later = learned.walked([START, (1.0, 1.0)])
+    assert (later.rows[:, KIND] == SUPPOSED).all() and (learned.rows[:, KIND] == FELT).all()
+    assert len(later.seen(sight(free=[(2.0, 2.0), (4.0, 2.0), (4.0, 4.0), (2.0, 4.0)])).pieces) == 0
 
 
 # --- the robot's own place, odd places ---------------------------------------------------------------

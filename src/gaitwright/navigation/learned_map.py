@@ -95,8 +95,8 @@ class LearnedMap:
 
     def felt(self, place: Point, direction: float) -> "LearnedMap":
         """With a contact of a disc that stands at `place` [m], on its rim in a world direction [rad]: there
-        is something across it. No look unlearns it, only a trip through it; but that it goes on to both
-        sides is only supposed."""
+        is something across it. No look of this trip unlearns it; but that it goes on to both sides is
+        only supposed."""
         require_finite(np.array([*place, direction]))
         ahead = np.array([math.cos(direction), math.sin(direction)])
         across, at = np.array([-ahead[1], ahead[0]]), np.array(place) + (self.narrowest - TOUCH) * ahead
@@ -107,12 +107,14 @@ class LearnedMap:
         return replace(self, rows=rows)
 
     def walked(self, way: Path) -> "LearnedMap":
-        """With a trip that was made: its ground is free, so nothing lies deep within it."""
+        """With a trip that was made: its ground is free, so nothing lies deep within it. What was felt is
+        only supposed from now on: it may be gone by the next trip."""
         points = [(float(x), float(y)) for x, y in way]
         require_finite(np.array(points))
         if len(points) < 2:
             return self
         rows = self.rows[~crossed(self.rows, np.array(points), DEEP * self.radius)]
+        rows[rows[:, KIND] == FELT, KIND] = SUPPOSED
         raster = with_way(self.raster, points, self.radius)
         return replace(self, rows=rows, raster=raster, trips=(*self.trips, tuple(points)), trail=())
 
