@@ -57,6 +57,7 @@ def test_bytes_that_were_changed_are_a_map_or_told_to_be_none(at: int, other: by
         ({"rows": np.array([[0.0, 0, 1, 1, 1, 0, 99, 0]]).tobytes()}, "1 to 20 times"),
         ({"known": b""}, "not that of its field"),
         ({"trips": (((0.0, math.inf),),)}, "no finite number"),
+        ({"trips": (((0.0, 1e9),),)}, "too far away"),
     ],
 )
 def test_data_that_make_no_sense_are_told(change: dict, sentence: str) -> None:

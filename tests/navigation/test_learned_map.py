@@ -319,6 +319,16 @@ def test_goals_that_cannot_be_stood_on() -> None:
     assert learned.way((-1.0, 3.0), (1.0, 3.0)).path[-1] == (1.0, 3.0)
 
 
+def test_obstacles_may_reach_as_far_as_they_like() -> None:
+    """A wall from one end of what is allowed to the other, and things far from the field."""
+    far = 9e6
+    wall, beside = [(3.0, -far), (3.1, -far), (3.1, far), (3.0, far)], box_at(far, -far, 1.0, 1.0)
+    assert LearnedMap.of_polygons(BOUNDS, RADIUS, [wall]).way(START, GOAL) is None
+    assert LearnedMap.of_polygons(BOUNDS, RADIUS, [beside]).way(START, GOAL).path == (GOAL,)
+    with pytest.raises(WrongUse, match="at most"):
+        LearnedMap.of_polygons(BOUNDS, RADIUS, [box_at(1e8, 0.0, 1.0, 1.0)])
+
+
 def test_what_makes_no_sense_is_said() -> None:
     with pytest.raises(WrongUse, match="no strategy 'best'"):
         LearnedMap.of(BOUNDS, RADIUS, strategy="best")
