@@ -101,6 +101,22 @@ def test_it_is_as_good_as_corners_of_mitred_outlines(seed: int) -> None:
         assert way.length <= LineString([START, *theirs]).length + 1e-9
 
 
+def test_a_goal_that_is_shut_in_is_found_to_be_from_its_side() -> None:
+    """Among many polygons only few corners are looked at; with a door left open the way in is found."""
+    rng, bounds = np.random.default_rng(5), (0.0, 0.0, 40.0, 40.0)
+    goal = (20.0, 20.0)
+    polygons = random_polygons(rng, 150, bounds, (0.3, 1.5), (goal, START), 3.0)
+    walls = [box_at(20.0, 18.5, 3.0, 0.1), box_at(20.0, 21.5, 3.0, 0.1), box_at(18.5, 20.0, 0.1, 3.0)]
+    door, shut = box_at(21.5, 19.5, 0.1, 2.0), box_at(21.5, 20.0, 0.1, 3.0)
+    pole = box_at(20.5, 20.0, 0.2, 0.2)
+    closed = LearnedMap.of_polygons(bounds, RADIUS, [*polygons, *walls, shut, pole])
+    assert closed.way(START, goal) is None
+    found = closed.road_map.roads.found[:, 0] >= 0
+    assert 500 < found.sum() < 0.5 * len(found)
+    way = LearnedMap.of_polygons(bounds, RADIUS, [*polygons, *walls, door, pole]).way(START, goal)
+    assert way is not None and way.length > math.dist(START, goal)
+
+
 WALLS = {
     "edge to edge": (0.0, 0.0),
     "a nanometre apart": (1e-9, 0.0),
