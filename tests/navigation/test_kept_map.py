@@ -21,7 +21,7 @@ def learned() -> LearnedMap:
     made = LearnedMap.of(BOUNDS, RADIUS, noise=0.002)
     for eye in ((1.0, 1.0), (5.0, 4.0)):
         made = made.seen(look(edges, eye))
-    return made.felt((2.0, 2.0), 0.3).walked([(1.0, 1.0), (1.0, 4.0), (5.0, 4.0)])
+    return made.walked([(1.0, 1.0), (1.0, 4.0), (5.0, 4.0)]).felt((2.0, 2.0), 0.3)
 
 
 def test_what_was_kept_is_the_same() -> None:
@@ -57,6 +57,7 @@ def test_bytes_that_were_changed_are_a_map_or_told_to_be_none(at: int, other: by
         ({"rows": np.array([[0.0, 0, 1, 1, 1, 0, 99, 0]]).tobytes()}, "1 to 20 times"),
         ({"known": b""}, "not that of its field"),
         ({"trips": (((0.0, math.inf),),)}, "no finite number"),
+        ({"trips": (((0.0, 1e9),),)}, "too far away"),
     ],
 )
 def test_data_that_make_no_sense_are_told(change: dict, sentence: str) -> None:

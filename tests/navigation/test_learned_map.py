@@ -22,12 +22,14 @@ from plane_world import (
     turned,
     walk,
 )
-from shapely import LineString
+from shapely import LineString, Polygon
 
 from gaitwright.errors import WrongUse
 from gaitwright.navigation.learned_map import LearnedMap
-from gaitwright.navigation.piece_rows import FELT, KIND, SEEN
+from gaitwright.navigation.obstacles import PlanView
+from gaitwright.navigation.piece_rows import FELT, KIND, SEEN, SUPPOSED
 from gaitwright.navigation.tolerances import CHECK, LINK, NODE, STOP, TOUCH, WORTH
+from gaitwright.navigation.visibility import shortest_path
 from gaitwright.signals import Sight
 
 BOUNDS = (0.0, 0.0, 6.0, 6.0)
@@ -78,6 +80,41 @@ def test_round_a_pole_a_disc_goes_along_its_polygon() -> None:
     straight, angle = math.sqrt(4.0 - 0.25), 2.0 * math.asin(0.25)
     exact = 2.0 * straight + 0.5 * angle
     assert exact <= way.length <= exact * 1.002
+
+
+@given(st.integers(0, 10_000))
+def test_it_is_as_good_as_corners_of_mitred_outlines(seed: int) -> None:
+    """Beside `visibility`, which grows outlines without rounding them: never longer."""
+    rng = np.random.default_rng(seed)
+    drawn = np.hstack(
+        [rng.uniform(1.0, 5.0, (8, 2)), rng.uniform(0.2, 1.5, (8, 2)), rng.uniform(0.0, 3.0, (8, 1))]
+    )
+    boxes = [box_at(*numbers) for numbers in drawn.tolist()]
+    mitred = {"join_style": "mitre", "mitre_limit": 1.5}
+    grown = shapely.union_all([Polygon(box).buffer(RADIUS + 1e-3, **mitred) for box in boxes])
+    view = PlanView(tuple(getattr(grown, "geoms", [grown])), shapely.box(*BOUNDS).buffer(-RADIUS - 1e-3))
+    if view.blocked(START) or view.blocked(GOAL):
+        return
+    theirs = shortest_path(view, START, GOAL)
+    way = LearnedMap.of_polygons(BOUNDS, RADIUS, boxes).way(START, GOAL)
+    if theirs is not None:
+        assert way.length <= LineString([START, *theirs]).length + 1e-9
+
+
+def test_a_goal_that_is_shut_in_is_found_to_be_from_its_side() -> None:
+    """Among many polygons only few corners are looked at; with a door left open the way in is found."""
+    rng, bounds = np.random.default_rng(5), (0.0, 0.0, 40.0, 40.0)
+    goal = (20.0, 20.0)
+    polygons = random_polygons(rng, 150, bounds, (0.3, 1.5), (goal, START), 3.0)
+    walls = [box_at(20.0, 18.5, 3.0, 0.1), box_at(20.0, 21.5, 3.0, 0.1), box_at(18.5, 20.0, 0.1, 3.0)]
+    door, shut = box_at(21.5, 19.5, 0.1, 2.0), box_at(21.5, 20.0, 0.1, 3.0)
+    pole = box_at(20.5, 20.0, 0.2, 0.2)
+    closed = LearnedMap.of_polygons(bounds, RADIUS, [*polygons, *walls, shut, pole])
+    assert closed.way(START, goal) is None
+    found = closed.road_map.roads.found[:, 0] >= 0
+    assert 500 < found.sum() < 0.5 * len(found)
+    way = LearnedMap.of_polygons(bounds, RADIUS, [*polygons, *walls, door, pole]).way(START, goal)
+    assert way is not None and way.length > math.dist(START, goal)
 
 
 WALLS = {
@@ -245,13 +282,16 @@ def test_only_what_lies_in_seen_ground_is_unlearned() -> None:
     assert sorted(map(tuple, learned.corners.tolist())) == [(False, True), (True, False)]
 
 
-def test_what_was_felt_stays_until_it_is_walked_through() -> None:
+def test_what_was_felt_stays_until_the_trip_is_over_or_leads_through_it() -> None:
     learned = empty().felt((3.0 - RADIUS, 3.0), 0.0)
     assert learned.is_cut([(2.5, 3.0), (3.5, 3.0)]) and not learned.is_cut([(3.5, 2.0), (3.5, 4.0)])
     assert len(learned.way((2.5, 3.0), (3.5, 3.0)).path) > 1 and len(learned.pieces) == 2
     learned = learned.seen(sight(free=[(2.0, 2.0), (4.0, 2.0), (4.0, 4.0), (2.0, 4.0)]))
     np.testing.assert_allclose(np.sort(learned.pieces[:, 1::2]), [[2.999, 3.001]])
     assert len(learned.walked([(2.0, 3.0), (4.0, 3.0)]).pieces) == 0
+    later = learned.walked([START, (1.0, 1.0)])
+    assert (later.rows[:, KIND] == SUPPOSED).all() and (learned.rows[:, KIND] == FELT).all()
+    assert len(later.seen(sight(free=[(2.0, 2.0), (4.0, 2.0), (4.0, 4.0), (2.0, 4.0)])).pieces) == 0
 
 
 # --- the robot's own place, odd places ---------------------------------------------------------------
@@ -293,6 +333,16 @@ def test_goals_that_cannot_be_stood_on() -> None:
     assert learned.way(START, (0.1, 3.0)) is None
     assert learned.way((3.0, 2.45), (3.0, 2.45)).length == 0.0
     assert learned.way((-1.0, 3.0), (1.0, 3.0)).path[-1] == (1.0, 3.0)
+
+
+def test_obstacles_may_reach_as_far_as_they_like() -> None:
+    """A wall from one end of what is allowed to the other, and things far from the field."""
+    far = 9e6
+    wall, beside = [(3.0, -far), (3.1, -far), (3.1, far), (3.0, far)], box_at(far, -far, 1.0, 1.0)
+    assert LearnedMap.of_polygons(BOUNDS, RADIUS, [wall]).way(START, GOAL) is None
+    assert LearnedMap.of_polygons(BOUNDS, RADIUS, [beside]).way(START, GOAL).path == (GOAL,)
+    with pytest.raises(WrongUse, match="at most"):
+        LearnedMap.of_polygons(BOUNDS, RADIUS, [box_at(1e8, 0.0, 1.0, 1.0)])
 
 
 def test_what_makes_no_sense_is_said() -> None:

@@ -8,7 +8,7 @@ import numpy as np
 from msgspec import Meta
 
 from gaitwright.errors import BadFile, WrongUse
-from gaitwright.navigation.learned_map import STRATEGIES, LearnedMap
+from gaitwright.navigation.learned_map import FARTHEST, STRATEGIES, LearnedMap
 from gaitwright.navigation.piece_rows import CORNERS, KIND, LOOKS, MOST_LOOKS, SUPPOSED, WIDTH
 from gaitwright.navigation.raster import Raster
 
@@ -65,8 +65,8 @@ def of_kept(kept: KeptMap) -> LearnedMap:
         raise BadFile("a learned map's pieces are cut off")
     rows = np.frombuffer(kept.rows, dtype="<f8").astype(float).reshape(-1, WIDTH)
     points = [number for trip in kept.trips for point in trip for number in point]
-    if not (np.isfinite(rows).all() and all(map(math.isfinite, points))):
-        raise BadFile("a place of a learned map is no finite number")
+    if not (np.isfinite(rows).all() and (np.abs([*points, *rows[:, :4].flat]) <= FARTHEST).all()):
+        raise BadFile("a place of a learned map is no finite number, or too far away")
     looks, kinds = rows[:, LOOKS], rows[:, KIND]
     if not (np.isin(rows[:, CORNERS], (0.0, 1.0)).all() and np.isin(kinds, np.arange(SUPPOSED + 1.0)).all()):
         raise BadFile("a learned map has pieces of a kind that there is not")

@@ -30,6 +30,8 @@ STRATEGIES = ("optimistic", "thesis")
 """How a way is chosen where the map is blank."""
 LARGEST = 100_000.0
 """A field is no longer or wider [m]."""
+FARTHEST = 1e7
+"""Nothing is farther from the origin [m]: there a distance is still right to a micrometre."""
 TOUCHED, BESIDE = 1e-3, 0.15
 """What was touched is there to this length to either side, and twice the noise; it is supposed to go on to
 that [m]."""
@@ -62,8 +64,9 @@ class LearnedMap:
         if strategy not in STRATEGIES:
             raise unknown("strategy", strategy, STRATEGIES)
         x_min, y_min, x_max, y_max = bounds
-        if not (all(map(math.isfinite, bounds)) and x_min < x_max and y_min < y_max):
+        if not (x_min < x_max and y_min < y_max):
             raise WrongUse(f"a field from ({x_min:g}, {y_min:g}) to ({x_max:g}, {y_max:g}) has no room")
+        require_places(np.array(bounds))
         if max(x_max - x_min, y_max - y_min) > LARGEST:
             raise WrongUse(
                 f"a field has at most {LARGEST / 1000.0:g} km, not {x_max - x_min:g} m by {y_max - y_min:g} m"
@@ -80,14 +83,14 @@ class LearnedMap:
         rings = [np.array(ring, dtype=float).reshape(-1, 2) for ring in polygons if len(ring)]
         edges = [np.hstack([ring, np.roll(ring, -1, axis=0)]) for ring in rings]
         pieces = np.concatenate([np.empty((0, 4)), *edges])
-        require_finite(pieces)
+        require_places(pieces)
         known = Raster(empty.raster.place, np.ones_like(empty.raster.cells))
         return replace(empty, rows=rows_of(pieces, True), raster=known)
 
     # --- learned --------------------------------------------------------------------------------
     def seen(self, sight: Sight) -> "LearnedMap":
         """With what a look showed: pieces that it went through are unlearned, those of one line join."""
-        require_finite(sight.pieces, sight.free)
+        require_places(sight.pieces, sight.free)
         rows = unlearned(self.rows, sight.free, self.noise)
         rows = joined_rows(rows, rows_of(sight.pieces, sight.corners), self.noise)
         trail = (*self.trail, sight.eye) if self.strategy == "thesis" else ()
@@ -95,9 +98,9 @@ class LearnedMap:
 
     def felt(self, place: Point, direction: float) -> "LearnedMap":
         """With a contact of a disc that stands at `place` [m], on its rim in a world direction [rad]: there
-        is something across it. No look unlearns it, only a trip through it; but that it goes on to both
-        sides is only supposed."""
-        require_finite(np.array([*place, direction]))
+        is something across it. No look of this trip unlearns it; but that it goes on to both sides is
+        only supposed."""
+        require_places(np.array([*place, direction]))
         ahead = np.array([math.cos(direction), math.sin(direction)])
         across, at = np.array([-ahead[1], ahead[0]]), np.array(place) + (self.narrowest - TOUCH) * ahead
         rows = self.rows
@@ -107,12 +110,14 @@ class LearnedMap:
         return replace(self, rows=rows)
 
     def walked(self, way: Path) -> "LearnedMap":
-        """With a trip that was made: its ground is free, so nothing lies deep within it."""
+        """With a trip that was made: its ground is free, so nothing lies deep within it. What was felt is
+        only supposed from now on: it may be gone by the next trip."""
         points = [(float(x), float(y)) for x, y in way]
-        require_finite(np.array(points))
+        require_places(np.array(points))
         if len(points) < 2:
             return self
         rows = self.rows[~crossed(self.rows, np.array(points), DEEP * self.radius)]
+        rows[rows[:, KIND] == FELT, KIND] = SUPPOSED
         raster = with_way(self.raster, points, self.radius)
         return replace(self, rows=rows, raster=raster, trips=(*self.trips, tuple(points)), trail=())
 
@@ -135,7 +140,7 @@ class LearnedMap:
         cannot be reached, unless the robot stands there. `None` is said only if there is none either without
         what is only supposed, and where pieces are noisy for a disc narrower by twice the noise.
         """
-        require_finite(np.array([*start, *goal]))
+        require_places(np.array([*start, *goal]))
         start, goal = (float(start[0]), float(start[1])), (float(goal[0]), float(goal[1]))
         way = self.way_over(self.road_map, start, goal)
         if way is None and (self.noise > 0.0 or (self.rows[:, KIND] == SUPPOSED).any()):
@@ -181,7 +186,7 @@ class LearnedMap:
         return RoadMap(self.bounds, self.narrowest, self.pieces[self.rows[:, KIND] != SUPPOSED])
 
 
-def require_finite(*arrays: np.ndarray) -> None:
-    """Raises `WrongUse` where a number is none."""
-    if not all(np.isfinite(array).all() for array in arrays):
-        raise WrongUse("a place of a map must be finite numbers")
+def require_places(*arrays: np.ndarray) -> None:
+    """Raises `WrongUse` where a number is no place."""
+    if not all((np.abs(array) <= FARTHEST).all() for array in arrays):
+        raise WrongUse(f"a place of a map must be finite numbers of at most {FARTHEST:g} m")

@@ -73,8 +73,7 @@ def filed(pieces, place, size, reach):
 def rows_of(y0, y1, place, rows, reach):
     """First and last row that what is within `reach` of a piece touches; last < first: none."""
     low, high = min(y0, y1) - reach, max(y0, y1) + reach
-    first, last = math.floor((low - place[1]) / place[2]), math.floor((high - place[1]) / place[2])
-    return max(int(first), 0), min(int(last), rows - 1)
+    return between((low - place[1]) / place[2], (high - place[1]) / place[2], rows)
 
 
 @kernel
@@ -84,9 +83,15 @@ def columns_of(piece, place, row, columns, reach):
     low = place[1] + row * place[2] - reach
     t0, t1 = part_between(y0, y1, low, low + place[2] + 2.0 * reach)
     xa, xb = x0 + t0 * (x1 - x0), x0 + t1 * (x1 - x0)
-    left = math.floor((min(xa, xb) - reach - place[0]) / place[2])
-    right = math.floor((max(xa, xb) + reach - place[0]) / place[2])
-    return max(int(left), 0), min(int(right), columns - 1)
+    left, right = min(xa, xb) - reach - place[0], max(xa, xb) + reach - place[0]
+    return between(left / place[2], right / place[2], columns)
+
+
+@kernel
+def between(low, high, count):
+    """First and last of `count` cells that a span touches, which may be as far away as it likes."""
+    first = int(min(max(math.floor(low), 0.0), 1.0 * count))
+    return first, int(min(max(math.floor(high), -1.0), count - 1.0))
 
 
 @kernel
@@ -102,8 +107,8 @@ def part_between(y0, y1, low, high):
 @kernel
 def cell_of(place, size, x, y):
     """The cell of a point; of one outside the field the nearest."""
-    column = min(max(int((x - place[0]) / place[2]), 0), size[1] - 1)
-    row = min(max(int((y - place[1]) / place[2]), 0), size[0] - 1)
+    column = int(min(max((x - place[0]) / place[2], 0.0), size[1] - 1.0))
+    row = int(min(max((y - place[1]) / place[2], 0.0), size[0] - 1.0))
     return row * size[1] + column
 
 

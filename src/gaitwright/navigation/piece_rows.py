@@ -18,7 +18,7 @@ CORNERS = slice(4, 6)
 LOOKS, KIND = 6, 7
 """Columns."""
 SEEN, FELT, SUPPOSED = 0.0, 1.0, 2.0
-"""Kinds: seen; felt, which no look unlearns; supposed to go on beside what was felt, which proves nothing."""
+"""Kinds: seen; felt, which no look unlearns; supposed: beside what was felt, or felt on an earlier trip."""
 OF_LINE = 1e-4
 """A piece is of another's line when its ends are within this of it [m], and 2.5 times the noise."""
 OF_GAP = 1e-3
