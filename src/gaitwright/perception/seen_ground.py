@@ -142,15 +142,21 @@ def mark_breaks(heights, known, step, edges, cells, first):
     A break is seen by two places at least: what the unknown was filled with makes none. Nor does noise.
     """
     n, half = heights.shape[0], MARGIN // 2
+    broken = np.zeros((n, n), np.uint8)
+    for u in range(half, n - half):  # first where there may be one at all: this is quick
+        for v in range(half, n - half):
+            most, twice = 0.0, 2.0 * heights[u, v]
+            for du, dv in ((0, half), (half, 0), (half, half), (half, -half)):
+                most = max(most, abs(heights[u - du, v - dv] - twice + heights[u + du, v + dv]))
+            broken[u, v] = most > step
     for u in range(half, n - half):
         for v in range(half, n - half):
-            twice = 2.0 * heights[u, v]
+            if broken[u, v] == 0:
+                continue
             for du, dv in ((0, half), (half, 0), (half, half), (half, -half)):
                 seen = known[u - du, v - dv] + known[u, v] + known[u + du, v + dv]
-                off = abs(heights[u - du, v - dv] - twice + heights[u + du, v + dv])
-                if (
-                    off > step
-                    and seen > 1.5
-                    and off > step + min(VAGUE * doubt(cells, first, u, v, du, dv), step)
-                ):
+                off = abs(heights[u - du, v - dv] - 2.0 * heights[u, v] + heights[u + du, v + dv])
+                if seen < 1.5 or off <= step:
+                    continue
+                if off > 2.0 * step or off > step + VAGUE * doubt(cells, first, u, v, du, dv):
                     edges[u - du, v - dv] = edges[u + du, v + dv] = 1.0
