@@ -8,7 +8,7 @@ from jaxtyping import Float
 from shapely import LineString
 
 from gaitwright.errors import WrongUse
-from gaitwright.navigation.learned_map import STRATEGIES, LearnedMap
+from gaitwright.navigation.learned_map import STRATEGIES, LearnedMap, Path
 from gaitwright.navigation.piece_rows import WIDTH
 from gaitwright.navigation.raster import Raster
 from gaitwright.navigation.roads import Bounds
@@ -94,8 +94,7 @@ def map_in(book: Skillbook, place: str, empty: LearnedMap) -> LearnedMap | None:
 def with_trip(learned: LearnedMap, recording: Recording) -> LearnedMap:
     """A map with the way that was walked in the field on a trip, as far as there was one."""
     way = in_field(way_walked(recording), learned.bounds)
-    far = float(np.hypot(*np.diff(way, axis=0).T).sum())
-    return learned.walked(way) if far > learned.radius else replace(learned, trail=())
+    return learned.walked(way) if length_of(way) > learned.radius else replace(learned, trail=())
 
 
 def way_walked(recording: Recording) -> Float[np.ndarray, "n 2"]:
@@ -142,6 +141,11 @@ def known(learned: LearnedMap) -> str:
     trips, pieces = len(learned.trips), len(learned.rows)
     counted = [f"{n} {what}{'' if n == 1 else 's'}" for n, what in ((trips, "trip"), (pieces, "piece"))]
     return f"{', '.join(counted)}, {free_ground(learned):.0f} m² free"
+
+
+def length_of(way: Path) -> float:
+    """How long a way is [m]."""
+    return float(np.hypot(*np.diff(np.array(way), axis=0).T).sum())
 
 
 def free_ground(learned: LearnedMap) -> float:
