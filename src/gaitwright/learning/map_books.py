@@ -93,16 +93,16 @@ def map_in(book: Skillbook, place: str, empty: LearnedMap) -> LearnedMap | None:
 
 def with_trip(learned: LearnedMap, recording: Recording) -> LearnedMap:
     """A map with the way that was walked in the field on a trip, as far as there was one."""
-    way = in_field(way_walked(recording), learned.bounds)
+    way = way_walked(recording, learned.bounds)
     return learned.walked(way) if length_of(way) > learned.radius else replace(learned, trail=())
 
 
-def way_walked(recording: Recording) -> Float[np.ndarray, "n 2"]:
-    """Where a robot was on a trip, from above [m]: a line that is nowhere farther than `AS_WALKED` off."""
+def way_walked(recording: Recording, bounds: Bounds) -> Float[np.ndarray, "n 2"]:
+    """Where a robot was in a field on a trip, from above [m]: a line that is at most `AS_WALKED` off."""
     trip = recording.of_trip().sound()
     position = trip.channel("position_w")
     taken = [position[part][::EVERY] for part in parts(len(trip))]
-    points = np.concatenate([*taken, position[len(trip) - 1 :]])[:, :2]
+    points = in_field(np.concatenate([*taken, position[len(trip) - 1 :]])[:, :2], bounds)
     if len(points) < 2:
         return points
     return np.array(LineString(points).simplify(AS_WALKED).coords)
