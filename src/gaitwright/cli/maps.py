@@ -25,17 +25,17 @@ def run(args: Namespace) -> None:
     maps = {place_of(notes): notes for notes in skillbook_of(path).maps}
     if asked and asked[0] not in maps:
         raise unknown(f"map in {short(path)}", asked[0], maps)
-    chosen = {place: learned_map_of(maps[place]) for place in asked or maps}
+    chosen = asked or list(maps)
     if out is not None and len(chosen) != 1:
         raise WrongUse(f"--out draws one map: name its place, of {', '.join(maps) or 'none'}")
-    figures = {"book": path, "maps": {place: figures_of(learned) for place, learned in chosen.items()}}
-    write_json(args.json, json.dumps(figures, indent=2, ensure_ascii=False))
+    figures = {place: figures_of(learned_map_of(maps[place])) for place in chosen}
+    write_json(args.json, json.dumps({"book": path, "maps": figures}, indent=2, ensure_ascii=False))
     if args.json != "-" and chosen:
-        show_table(HEAD, [row_of(place, learned) for place, learned in chosen.items()], right=HEAD[2:])
+        show_table(HEAD, [row_of(place, told) for place, told in figures.items()], right=HEAD[2:])
     if not chosen:
         remark(f"{short(path)} has no maps: `gaitwright mission --sight camera --skillbook` learns them")
     if out is not None:
-        draw(chosen, Path(out))
+        draw(learned_map_of(maps[chosen[0]]), chosen[0], Path(out))
 
 
 def figures_of(learned: LearnedMap) -> dict[str, Any]:
@@ -51,20 +51,18 @@ def figures_of(learned: LearnedMap) -> dict[str, Any]:
     }
 
 
-def row_of(place: str, learned: LearnedMap) -> Sequence[str]:
+def row_of(place: str, told: dict[str, Any]) -> Sequence[str]:
     """A line of the table."""
-    x_min, y_min, x_max, y_max = learned.bounds
-    field = f"{x_max - x_min:g} × {y_max - y_min:g}"
-    last = f"{length_of(learned.trips[-1]):.1f}" if learned.trips else "–"
-    counts = str(len(learned.trips)), last, str(len(learned.rows)), f"{free_ground(learned):.0f}"
-    return place, field, *counts, f"{2.0 * learned.radius:.2f}"
+    (x_min, y_min, x_max, y_max), trips = told["bounds"], told["trips"]
+    last = f"{trips[-1]:.1f}" if trips else "–"
+    counts = str(len(trips)), last, str(told["pieces"]), f"{told['free_m2']:.0f}"
+    return place, f"{x_max - x_min:g} × {y_max - y_min:g}", *counts, f"{2.0 * told['radius']:.2f}"
 
 
-def draw(chosen: dict[str, LearnedMap], path: Path) -> None:
-    """Draws the one map that was chosen."""
+def draw(learned: LearnedMap, place: str, path: Path) -> None:
+    """Draws a map."""
     if not has("matplotlib", "the picture", "plot"):
         return
-    ((place, learned),) = chosen.items()
     with working("drawing the map", worth_a_line=None):
         from gaitwright.pictures.learned_map import learned_map_picture  # noqa: PLC0415 - an extra
 

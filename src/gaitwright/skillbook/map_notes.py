@@ -20,8 +20,10 @@ ROW, POINT = 8, 2
 KINDS = 3
 """Kinds of pieces."""
 Number = Annotated[float, Meta(ge=-LARGEST, le=LARGEST)]
-Numbers = Annotated[bytes, Meta(max_length=8_000_000)]
+Numbers = Annotated[bytes, Meta(max_length=2_000_000)]
 """64-bit floats, the lowest byte first."""
+Pieces = Annotated[bytes, Meta(max_length=64 * 32_768)]
+"""The same, eight numbers a piece: with more of them joining two maps takes too long."""
 Bits = Annotated[bytes, Meta(max_length=1_000_000)]
 """Eight a byte, the first one highest."""
 Cells = Annotated[int, Meta(ge=1, le=8_000_000)]
@@ -38,7 +40,7 @@ class MapNotes(Strict, frozen=True, omit_defaults=True):
     strategy: Label
     noise: Annotated[float, Meta(ge=0.0, le=LARGEST)]
     """Standard deviation of where pieces were seen [m]."""
-    pieces: Numbers
+    pieces: Pieces
     """Rows that follow each other, each as `navigation.piece_rows` has it."""
     cell: Annotated[float, Meta(gt=0.0, le=LARGEST)]
     """Size of a cell of the free ground [m]."""
