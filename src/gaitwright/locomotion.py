@@ -31,6 +31,7 @@ from gaitwright.knowledge.trust import Grade
 from gaitwright.model.camera import Camera
 from gaitwright.model.robot import Robot
 from gaitwright.navigation.explorer import Explorer
+from gaitwright.navigation.learned_map import LearnedMap
 from gaitwright.navigation.navigator import Navigator
 from gaitwright.perception.estimated_state import EstimatedState, Sensing
 from gaitwright.perception.fault_words import Fault
@@ -168,6 +169,11 @@ class Brain:
             return self
         assert isinstance(self.coordinator, Coordinator), "a planned climb has no swings to edit"
         return replace(self, coordinator=replace(self.coordinator, operators=tuple(operators)))
+
+    def with_map(self, known: LearnedMap) -> "Brain":
+        """The same brain with what was learned of the ground on earlier trips: it explores."""
+        assert isinstance(self.navigator, Explorer), "who knows the ground has nothing to learn of it"
+        return replace(self, navigator=replace(self.navigator, known=known))
 
     @cached_property
     def driving(self) -> Driving:

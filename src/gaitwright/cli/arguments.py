@@ -52,7 +52,8 @@ def add_mission(parser: argparse.ArgumentParser) -> None:
     fitting = "wished speed in m/s (what the robot trots at)"
     parser.add_argument("--speed", type=positive, metavar="V", help=fitting)
     rules = (
-        "drivers hybrid and learned: the rules that choose the skills, and the torque profiles, of this book"
+        "drivers hybrid and learned: the rules that choose the skills, and the torque profiles of this book; "
+        "--sight camera, with any driver: the map of this place, from earlier trips and for later ones"
     )
     parser.add_argument("--skillbook", metavar="FILE", help=rules)
     own = (
@@ -251,9 +252,10 @@ def add_books(parser: argparse.ArgumentParser) -> None:
         "files",
         nargs="+",
         metavar="FILE",
-        help="the books, or the text to import; a skill (confirm, trust), a lesson (forget), a table (edit)",
+        help="the books, or the text to import; a skill (confirm, trust), a lesson (forget), a table (edit), "
+        "a place (map)",
     )
-    out = "the new book, or where the text goes (export: the standard output; merge, import: needed)"
+    out = "the new book (merge, import: needed), the text (export: the standard output), the picture (map)"
     parser.add_argument("--out", metavar="FILE|-", help=out)
     accept = "edit: take it in, after it was shown in physics (only show it)"
     parser.add_argument("--accept", action="store_true", help=accept)

@@ -126,7 +126,7 @@ COMMANDS = {
         "a skill that `gaitwright teach` proposed by analogy, undo forgets the last lesson that counts (what "
         "was confirmed together counts as one), forget a lesson, or an edited profile, by its name, edit "
         "takes in what you changed in a profile's table (`gaitwright skills --profile`). trust shows how far "
-        "the learned controller is trusted with each skill, and sets it.",
+        "the learned controller is trusted with each skill, and sets it. map shows what is known of places.",
         (
             "gaitwright books merge mine.skills yours.skills --out both.skills",
             "gaitwright books confirm mine.skills walk-backward     # `books undo` takes it back",

@@ -14,9 +14,9 @@ from gaitwright.cli.mechanics_check import Checks
 from gaitwright.cli.output import check_folder, check_json, write_json, write_whole
 from gaitwright.control.numerical import Method
 from gaitwright.description.load import load_robot_and_notes
+from gaitwright.driving import Memories
 from gaitwright.errors import WrongUse, told
 from gaitwright.ground.scene import Scene
-from gaitwright.learning.growth import Returns
 from gaitwright.locomotion import Brain, Lap
 from gaitwright.model.camera import Camera
 from gaitwright.model.robot import Robot
@@ -148,10 +148,10 @@ def run(
     mission: Mission,
     args: Namespace,
     push: Push | None = None,
-    after: Callable[[Recording, Returns], None] = lambda recording, handed_back: None,
+    after: Callable[[Recording, Memories], None] = lambda recording, memories: None,
 ) -> int:
     """Simulates, reports, leaves the files in `args.out`; returns the exit code. `after` gets what was
-    recorded, and when a skill was handed back for not being the taught situation."""
+    recorded and what the robot remembers, also where the rest is broken off."""
     check_mechanics(mission.driver, args)
     broken = [breakdown(setting.robot, *asked) for asked in getattr(args, "fault", [])]
     senses = sensors_of(args)
@@ -189,10 +189,10 @@ def run(
         recording = record(session, args.seed, setting.scene.name, watch)
     if not len(recording):
         raise KeyboardInterrupt
-    wall = perf_counter() - began
-    code = finish(setting, recording, args, wall, checks)
-    after(recording, session.mind.memories.drive.handed_back)
-    return code
+    try:
+        return finish(setting, recording, args, perf_counter() - began, checks)
+    finally:
+        after(recording, session.mind.memories)
 
 
 def warm_up(setting: Setting, plant: Plant, mission: Mission) -> None:

@@ -21,6 +21,7 @@ from gaitwright.navigation.navigator import (
     place,
 )
 from gaitwright.navigation.obstacles import half_width
+from gaitwright.navigation.roads import Bounds
 from gaitwright.navigation.visibility import Point, length
 from gaitwright.signals import GroundMap, Mission, Route, Scan, Sensed, Sight
 
@@ -31,8 +32,6 @@ class Explored(NamedTuple):
     known: LearnedMap
     left: tuple[Point, ...]
     """Way-points that were not reached yet [m]."""
-    way: tuple[Point, ...]
-    """Where it has been since it set out, corner by corner [m]."""
     travelled: Travelled
     sight: Sight | None = None
     """The last one that is in the map."""
@@ -61,9 +60,9 @@ class Explorer:
         here, left = place(sensed), mission.waypoints
         known = memory.known if memory is not None else self.known
         if known is None:
-            known = LearnedMap.of(ground.bounds, half_width(self.robot), self.strategy, self.noise)
+            known = self.nothing(ground.bounds)
         sight = memory.sight if memory is not None else None
-        explored = looked(Explored(known, left, (here,), frozenset(), sight), ground.sight)
+        explored = looked(Explored(known, left, frozenset(), sight), ground.sight)
         route = replace(self.route(explored.known, here, left), speed=mission.speed)
         if route.no_way:
             return route, explored
@@ -81,12 +80,11 @@ class Explorer:
         explored = looked(memory, ground.sight)
         known, left = explored.known, explored.left
         while len(path) > 1 and self.has_passed(known, here, path[0], path[1]):
-            explored = explored._replace(way=(*explored.way, here))
             if len(left) > 1 and path[0] == left[0]:
                 left = left[1:]
             path = path[1:]
         explored = explored._replace(left=left)
-        if explored is not memory and known.is_cut((here, *path)):
+        if known.is_cut((here, *path)):
             other = self.route(known, here, left)
             if other.no_way:
                 return replace(route, path=(), no_way=other.no_way), explored
@@ -97,6 +95,10 @@ class Explorer:
         return self.seen(
             replace(route, path=path, remaining=remaining, arrived=arrived), sensed, scan, explored
         )
+
+    def nothing(self, bounds: Bounds) -> LearnedMap:
+        """What it knows of a field where it has never been."""
+        return LearnedMap.of(bounds, half_width(self.robot), self.strategy, self.noise)
 
     def route(self, known: LearnedMap, here: Point, left: Sequence[Point]) -> Route:
         """A way from here over all way-points, or why there is none."""

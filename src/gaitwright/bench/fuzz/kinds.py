@@ -31,6 +31,7 @@ from gaitwright.gait.leg_cycles.check import check_cycle
 from gaitwright.gait.leg_cycles.files import load_cycle
 from gaitwright.ground.scene import load_scene
 from gaitwright.knowledge.json_form import loads
+from gaitwright.learning.map_books import learned_map_of
 from gaitwright.learning.notes import relearned
 from gaitwright.navigation.navigator import Navigator
 from gaitwright.navigation.visibility import shortest_path
@@ -82,7 +83,11 @@ def take_robot(path: Path) -> None:
 
 
 def take_skillbook(path: Path) -> None:
-    export_text(Skillbook.load(path))
+    """Read, and its maps made of what was read."""
+    book = Skillbook.load(path)
+    export_text(book)
+    for notes in book.maps:
+        learned_map_of(notes)
 
 
 def take_text(path: Path) -> None:

@@ -3,6 +3,7 @@
 import io
 import json
 import tempfile
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -17,9 +18,11 @@ from gaitwright.description.load import load_robot
 from gaitwright.gait.leg_cycles.files import BUILT_IN
 from gaitwright.ground.scene import load_scene
 from gaitwright.knowledge.json_form import dumps
+from gaitwright.learning.map_books import notes_of
 from gaitwright.locomotion import Brain
 from gaitwright.model.catalogue import robot_file, robot_names
 from gaitwright.model.urdf import write_urdf
+from gaitwright.navigation.learned_map import LearnedMap
 from gaitwright.plant.kinematic import KinematicPlant
 from gaitwright.session import walk
 from gaitwright.signals import Mission
@@ -104,8 +107,10 @@ def urdfs() -> tuple[bytes, ...]:
 
 @cache
 def book() -> Skillbook:
-    """A book of some lessons."""
-    return unkilled(1, LESSONS)
+    """A book of some lessons, and with a map."""
+    block = [(1.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0)]
+    learned = LearnedMap.of_polygons((-1.0, -1.0, 3.0, 3.0), 0.2, [block]).walked([(0.0, 0.0), (0.0, 2.0)])
+    return replace(unkilled(1, LESSONS), maps=(notes_of(learned, "a block (seed 0)"),))
 
 
 def texts() -> tuple[bytes, ...]:
