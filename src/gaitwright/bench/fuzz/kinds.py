@@ -234,6 +234,8 @@ COMMANDS: tuple[tuple[str, ...], ...] = (
     ),
     ("mission", "--seconds", "0.01", "--waypoints", "1,0.2", "2,-1", "--speed", "0.5", "--scene", "gap"),
     ("mission", "--seconds", "0.01", "--goal", "2", "0", "--driver", "hybrid", "--skillbook", "sound.skills"),
+    ("mission", "--seconds", "0.01", "--goal", "2", "0", "--sight", "camera", "--skillbook", "sound.skills"),
+    ("books", "map", "sound.skills", "a block (seed 0)"),
     ("skills", "--robot", "hexapod"),
     ("skills", "--cycle", "trot", "--robot", "go2"),
     ("scenes", "--json", "-"),
