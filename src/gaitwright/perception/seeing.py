@@ -8,16 +8,12 @@ import math
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-import numpy as np
-from jaxtyping import Float
-
 from gaitwright.ground.elevation import BLIND, SPACING
 from gaitwright.ground.scene import Scene
 from gaitwright.model.camera import Camera
-from gaitwright.model.kinematics import feet
 from gaitwright.model.robot import Robot
-from gaitwright.numerics.geometry import GRAVITY, heading, rotation
-from gaitwright.perception.elevation_map import ElevationMap, felt, fused, standing
+from gaitwright.numerics.geometry import heading, rotation
+from gaitwright.perception.elevation_map import ElevationMap, carrying, felt, fused, lowest_points, standing
 from gaitwright.perception.estimated_state import EstimatedState
 from gaitwright.perception.known_ground import KnownGround
 from gaitwright.perception.scanner import Scanner
@@ -25,9 +21,6 @@ from gaitwright.perception.seen_ground import SeenElevation, footholds_of
 from gaitwright.perception.walls import sight_of
 from gaitwright.signals import DepthFrame, GroundMap, Measured, Scan, Sensed, Sight
 from gaitwright.stages import Memory
-
-STANDS = 0.05
-"""A foot that carries more than this share of the weight has found the ground [-]."""
 
 
 class Looked(NamedTuple):
@@ -89,21 +82,16 @@ class SeeingGround:
 
     def before(self, sensed: Sensed) -> ElevationMap:
         """The map of a robot that has not looked yet: it stands."""
-        return standing(self.robot, sensed, self.soles(sensed))
+        return standing(self.robot, sensed, lowest_points(self.robot, sensed))
 
     def looked(self, seen: ElevationMap, sensed: Sensed, frame: DepthFrame) -> tuple[ElevationMap, Sight]:
         """The map after a frame and what the feet feel meanwhile, and the sight of the frame."""
         seen = fused(seen, frame, self.camera, sensed)
-        down = sensed.load > STANDS * self.robot.total_mass * GRAVITY
+        down = carrying(self.robot, sensed)
         if down.any():
-            seen = felt(seen, self.soles(sensed)[down], float(self.robot.foot_radius.max()), sensed.time)
+            soles = lowest_points(self.robot, sensed)[down]
+            seen = felt(seen, soles, float(self.robot.foot_radius.max()), sensed.time)
         return seen, sight_of(seen, frame, self.camera, sensed, self.ground.step)
-
-    def soles(self, sensed: Sensed) -> Float[np.ndarray, "legs 3"]:
-        """Lowest points of the feet, world [m]."""
-        places = sensed.position_w + feet(self.robot, sensed.q) @ rotation(sensed.orientation_wb).T
-        places[:, 2] -= self.robot.foot_radius
-        return places
 
     def look(self, ground: GroundMap, sensed: Sensed) -> Scan | None:
         """The ground ahead, as far as it was seen."""

@@ -128,7 +128,7 @@ def in_holes(robot: Robot, scene: Scene, recording: Recording) -> int:
     found = 0
     for k in range(0, len(recording), EVERY):
         R_wb, load = rotation(recording["orientation_wb"][k]), recording["load"][k]
-        places = recording["position_w"][k] + feet(robot, recording["q"][k]) @ R_wb.T
+        places = recording["position_w"][k] + feet(robot, recording["q"][k].reshape(-1, 3)) @ R_wb.T
         places[:, 2] -= robot.foot_radius
         around = places[:, None, :2] + ring
         level = np.min(scene.height(around[..., 0], around[..., 1]), axis=1)
