@@ -247,6 +247,20 @@ def test_no_progress_is_noticed_and_progress_is_patience_anew(on_the_way) -> Non
     assert stuck is not None and stuck.because.startswith("stuck: no progress for 15 s at (")
 
 
+def test_another_way_that_is_longer_is_patience_anew(on_the_way) -> None:
+    """Planned anew: an explorer that turns back out of a trap comes no nearer than it was for a long time."""
+    brain, lap = on_the_way
+    patience = STUCK * math.sqrt(brain.robot.height / 0.29)
+    watch = watching(brain)
+    assert verdict(watch, later(lap, 0.1, remaining=3.0)) is None
+    assert verdict(watch, later(lap, 0.1 + 0.9 * patience, remaining=6.0)) is None
+    assert verdict(watch, later(lap, 0.1 + 1.8 * patience, remaining=5.0)) is None
+    assert verdict(watch, later(lap, 0.1 + 2.7 * patience, remaining=5.0)) is None
+    back = 5.0 + 0.1 * brain.robot.body_length
+    stuck = verdict(watch, later(lap, 0.1 + 2.9 * patience, remaining=back))
+    assert stuck is not None and stuck.because.startswith("stuck")
+
+
 def test_a_force_distribution_that_keeps_failing_is_an_overload(on_the_way) -> None:
     brain, lap = on_the_way
     watch, words = watching(brain), "these feet cannot carry this load"

@@ -57,7 +57,7 @@ def test_the_version_is_the_installed_one():
     assert gaitwright.__version__.count(".") >= 2
 
 
-PEERS = ("_tick.py", "clips_rules.py", "sklearn_teachers.py")
+PEERS = ("_tick.py", "clips_rules.py", "paths_planners.py", "sklearn_teachers.py")
 """Scripts that run in the environments of the peers."""
 
 

@@ -28,11 +28,15 @@ from gaitwright.gait.operators import Operator
 from gaitwright.ground.scene import Scene
 from gaitwright.knowledge.rules import Rulebook
 from gaitwright.knowledge.trust import Grade
+from gaitwright.model.camera import Camera
 from gaitwright.model.robot import Robot
+from gaitwright.navigation.explorer import Explorer
+from gaitwright.navigation.learned_map import LearnedMap
 from gaitwright.navigation.navigator import Navigator
 from gaitwright.perception.estimated_state import EstimatedState, Sensing
 from gaitwright.perception.fault_words import Fault
 from gaitwright.perception.known_ground import KnownGround
+from gaitwright.perception.seeing import SeeingGround
 from gaitwright.perception.watch import Watch
 from gaitwright.programmes import Programmed
 from gaitwright.signals import (
@@ -86,21 +90,28 @@ class Brain:
         rulebook: Rulebook | None = None,
         watches: bool = True,
         sensing: Sensing = "true",
+        camera: Camera | None = None,
     ) -> "Brain":
         """A brain for a robot in a scene it knows, its torques by the numerical controller.
 
         `chooser`: by default the plain rules of `skills.chooser`; `dt`: control period [s]; `method`: how
         foot forces are shared, `"qp"` or the thesis's `"lp"`; `sees`: whether feet know the ground ahead;
         `rulebook`: rules that choose the skills in the place of a chooser; `watches`: whether faults of the
-        robot are noticed; `sensing`: whether it is told its state or estimates it.
+        robot are noticed; `sensing`: whether it is told its state or estimates it; `camera`: what it sees
+        the ground with, of which it knows nothing else (its plant must have it too: `plant.seeing`).
         """
         if chooser is None:
             chooser = DefaultChooser(robot) if rulebook is None else RuleChooser(robot, rulebook)
         numerical, known = NumericalController(robot, method), KnownGround.of(scene, robot, sees)
+        perception: Perception = known if sensing == "true" else EstimatedState(known, robot, dt)
+        navigator: Navigation = Navigator(robot)
+        if camera is not None:
+            perception = SeeingGround.of(scene.bounds, robot, camera, dt if sensing == "estimated" else None)
+            navigator = Explorer(robot, perception.noise)
         return cls(
             robot,
-            known if sensing == "true" else EstimatedState(known, robot, dt),
-            Navigator(robot),
+            perception,
+            navigator,
             FootholdGuard(chooser, robot) if sees else chooser,
             Coordinator(robot, dt),
             {
@@ -159,6 +170,11 @@ class Brain:
         assert isinstance(self.coordinator, Coordinator), "a planned climb has no swings to edit"
         return replace(self, coordinator=replace(self.coordinator, operators=tuple(operators)))
 
+    def with_map(self, known: LearnedMap) -> "Brain":
+        """The same brain with what was learned of the ground on earlier trips: it explores."""
+        assert isinstance(self.navigator, Explorer), "who knows the ground has nothing to learn of it"
+        return replace(self, navigator=replace(self.navigator, known=known))
+
     @cached_property
     def driving(self) -> Driving:
         """Gait and control of this brain."""
@@ -173,7 +189,8 @@ class Brain:
         """
         sensed, ground, perceived = self.perception.perceive(measured, before and before.memories.perception)
         scan = self.perception.look(ground, sensed)
-        route, travelled = self.navigator.set_out(mission, sensed, ground, scan)
+        remembered = before and before.memories.navigator
+        route, travelled = self.navigator.set_out(mission, sensed, ground, scan, remembered)
         call = self.chosen(mission, route, sensed, before and before.call, ground)
         if before is None:
             memories = Memories(perceived, travelled, self.coordinator.begin(sensed, phase))

@@ -18,7 +18,6 @@ from gaitwright.locomotion import Brain, Lap, Mind, think
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import heading, rotation
 from gaitwright.perception.fault_words import ends_trip
-from gaitwright.perception.known_ground import KnownGround
 from gaitwright.record.recording import Recorder, Recording
 from gaitwright.record.scene_of import scene_for, scene_scale  # noqa: F401 - found here by all who set up runs
 from gaitwright.signals import Measured, Mission
@@ -197,12 +196,14 @@ class Session:
             self.pushing_until = lap.sensed.time + due.lasts
 
     def rearrange(self, scene: Scene) -> None:
-        """Another arrangement of the world from the next step on: an obstacle moved, say. It is known."""
+        """Another arrangement of the world from the next step on: an obstacle moved, say. Who knows the
+        ground is told; who sees it finds out."""
         self.simulated().rearrange(scene)
-        sees = self.mind.ground.elevation is not None
-        perception = KnownGround.of(scene, self.brain.robot, sees)
-        self.brain = replace(self.brain, perception=perception)
-        self.give(self.mind.mission)
+        before = self.brain.perception
+        perception = before.told(scene, self.brain.robot)
+        if perception is not before:
+            self.brain = replace(self.brain, perception=perception)
+            self.give(self.mind.mission)
 
     def simulated(self) -> SimulatedPlant:
         """The plant, where its world can be interfered with; `WrongUse` where it is a real one."""

@@ -55,7 +55,17 @@ class Sensed(Packed):
         return are_finite(self.row)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False)
+class DepthFrame:
+    """What a depth camera saw, whatever camera it was (`model.camera` has its rays)."""
+
+    ranges: Float[np.ndarray, "rows columns"]
+    """Distance along each pixel's ray [m], from above and from the left; NaN where nothing came back."""
+    time: float
+    """When, since the start [s]."""
+
+
+@dataclass(frozen=True)
 class Measured(Sensed):
     """What happened: the state as a plant has it, and what an inertial unit on the base feels.
 
@@ -67,6 +77,8 @@ class Measured(Sensed):
 
     specific_force_b: tuple[float, float, float]
     """Acceleration of the base origin less gravity, base axes, mean over the last control period [m/s²]."""
+    frame: DepthFrame | None = None
+    """What a depth camera saw in this tick; `None` where there is none, or nothing new."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +91,19 @@ class Mission:
     """Wished speed [m/s]; `None` leaves it to the skill."""
     driver: str = "numerical"
     """Who computes the torques."""
+
+
+class Sight(NamedTuple):
+    """What one look shows of what is too high to step on, seen from above, world x, y [m]."""
+
+    eye: tuple[float, float]
+    """From where."""
+    pieces: Float[np.ndarray, "n 4"]
+    """Pieces of edges: x0, y0, x1, y1, with the ground on their left."""
+    corners: Bool[np.ndarray, "n 2"]
+    """At each end of a piece, whether free ground was seen beyond it; else range, view or cover ended it."""
+    free: Float[np.ndarray, "m 2"]
+    """Rim of what was seen to be free: star-shaped around the eye, anticlockwise; the eye may lie on it."""
 
 
 class ElevationGrid(NamedTuple):
@@ -111,7 +136,7 @@ class GroundMap:
 
     bounds: tuple[float, float, float, float]
     """x_min, y_min, x_max, y_max of the field [m]: robots stay inside."""
-    obstacles: tuple[Float[np.ndarray, "corners 2"], ...]
+    obstacles: tuple[Float[np.ndarray, "_ 2"], ...]
     """Outlines of what is too high to step on, seen from above, world x, y [m]."""
     elevation: Elevation | None
     """For eyes; `None` for a robot that does not look."""
@@ -121,6 +146,8 @@ class GroundMap:
     """A sudden rise by more than this is an obstacle [m]."""
     friction: float = GRIP
     """Coefficient of friction that feet count on until they slip [-]."""
+    sight: Sight | None = None
+    """What the newest look showed; `None` in a map that is full from the start, and before any look."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -43,15 +43,25 @@ class Perception(Protocol):
         """What the ground ahead is like; `None` where nobody looks."""
         ...
 
+    def told(self, scene: Any, robot: Any) -> "Perception":
+        """The same of a world (`ground.scene.Scene`) that was arranged anew, as far as it is told."""
+        ...
+
 
 @runtime_checkable
 class Navigation(Protocol):
     """Mission + Sensed + GroundMap → Route."""
 
     def set_out(
-        self, mission: Mission, sensed: Sensed, ground: GroundMap, scan: Scan | None = None
+        self,
+        mission: Mission,
+        sensed: Sensed,
+        ground: GroundMap,
+        scan: Scan | None = None,
+        memory: Memory = None,
     ) -> tuple[Route, Memory]:
-        """The route of a new mission; `no_way` says so where there is none."""
+        """The route of a new mission; `no_way` says so where there is none. `memory`: of the mission before,
+        where it is given on the way."""
         ...
 
     def plan(

@@ -23,6 +23,8 @@ STUCK = 15.0
 """A mission without progress for this long, times √(h/0.29 m) [s], has got stuck."""
 PROGRESS = 0.02
 """What counts as progress, in body lengths."""
+ANEW = 0.25
+"""A way that grows by more than this from a tick to the next, in body lengths, is another one."""
 STILL = 0.03
 """A body slower than this share of √(g h) stands still."""
 REST = 0.3
@@ -93,7 +95,7 @@ class Termination:
     def set_out(self, now: float) -> None:
         """A mission begins: neither progress nor rest was seen yet."""
         self.standing_since = self.progress_at = now
-        self.nearest = math.inf
+        self.nearest = self.left = math.inf
 
     def judge(
         self, sensed: Sensed, route: Route, call: SkillCall, target: MotionTarget, command: MotorCommand
@@ -150,9 +152,12 @@ class Termination:
         return None
 
     def stuck(self, route: Route, sensed: Sensed) -> Ending | None:
-        """A mission that makes no progress."""
+        """A mission that makes no progress; on another way, since this one is blocked, it begins anew."""
         if not route.path or route.arrived:
             return None
+        if route.remaining > self.left + ANEW * self.robot.body_length:
+            self.nearest = math.inf
+        self.left = route.remaining
         if route.remaining < self.nearest - PROGRESS * self.robot.body_length:
             self.nearest, self.progress_at = route.remaining, sensed.time
         if sensed.time - self.progress_at <= self.patience:

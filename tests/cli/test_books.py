@@ -178,7 +178,7 @@ WRONG = [
     (
         ("books", "mrge", "a.skills"),
         2,
-        "there is: merge, export, import, confirm, edit, undo, forget, trust; did you mean",
+        "there is: merge, export, import, confirm, edit, undo, forget, trust, map; did you mean",
     ),
     (MERGE, 2, "books merge takes 2: OURS THEIRS; got a.skills"),
     (("books", "export", "a.skills", "b.skills"), 2, "books export takes 1: BOOK; got a.skills b.skills"),

@@ -11,14 +11,17 @@ from mcap_ros2.decoder import DecoderFactory
 
 from gaitwright.bench.evidence.oracles import pinocchio
 from gaitwright.description.load import load_robot
+from gaitwright.ground.holes import Hole, dug
 from gaitwright.ground.scene import Scene, load_scene
-from gaitwright.ground.terrain import Box, HeightField, Slope, Surface
+from gaitwright.ground.solids import Cylinder, Prism, Pyramid, Sphere, Wedge
+from gaitwright.ground.terrain import Box, Flat, HeightField, Slope, Surface
 from gaitwright.locomotion import Brain
 from gaitwright.model.kinematics import feet
 from gaitwright.model.urdf import LIMB, Names, write_urdf
 from gaitwright.plant.mujoco.simulation import MujocoPlant
 from gaitwright.record.mcap_export import export_mcap
 from gaitwright.record.recording import Recording
+from gaitwright.record.scene_of import scene_of
 from gaitwright.record.scenery import KINDS, MOST_NODES, SCHEMA, scene_update
 from gaitwright.session import walk
 from gaitwright.signals import Mission
@@ -150,6 +153,12 @@ def test_a_scene_that_cannot_be_had_is_left_out_and_told(recording: Recording, t
     assert read(path)["/gaitwright/scene"] and "ground" not in metadata(path)
 
 
+@pytest.mark.parametrize("name", ["forest:0.3", "streets:0.8", "holes", "bugtrap:1"])
+def test_a_recording_in_a_family_has_its_scene(recording: Recording, name: str):
+    told = Recording(**{**vars(recording), "scene": name, "seed": 5})
+    assert scene_of(told) == load_scene(name, 5) != load_scene(name, 6)
+
+
 class Waves(Surface):
     """Ground of another kind than ours."""
 
@@ -193,6 +202,41 @@ def test_the_triangles_lie_on_the_surface(scene: Scene):
     if scene.name in ("steps", "rough:0.05"):  # not thinned: straight between the nodes as the ground is
         middle = triangles.mean(axis=1)
         np.testing.assert_allclose(middle[:, 2], scene.surface.height(*middle[:, :2].T), atol=3e-4)
+
+
+BENT = ((4.0, 0.0), (6.0, 0.0), (6.0, 2.0), (5.0, 0.5), (4.0, 2.0))
+PIT = Hole(((0.0, 1.0), (1.0, 1.0), (1.0, 3.0), (0.0, 3.0)), 0.3)
+
+
+@pytest.mark.parametrize("plane", [Flat(), Slope(0.1, 0.2)])
+def test_every_primitive_and_every_hole_is_shown_where_it_is(plane: Surface):
+    shapes = (
+        Cylinder(1.0, 0.0, 0.3, 0.5), Pyramid(3.0, 0.0, 0.4, 1.0, 0.8, 0.3, 0.3),
+        Wedge(-1.0, 0.0, 1.0, 0.8, 0.6, 0.3), Prism(BENT, 0.4), Sphere(-2.0, -2.0, 0.5, 0.3),
+    )  # fmt: skip
+    scene = Scene("all", dug(plane, (PIT,)), (), shapes=shapes, holes=(PIT,))
+    message = scene_update(scene, 0.0)
+    fits(message, SCHEMA)
+    entities = {entity["id"]: entity for entity in message["entities"]}
+    (ball,) = entities["shapes"]["spheres"]
+    top = ball["pose"]["position"]["z"] + ball["size"]["z"] / 2
+    assert top == pytest.approx(scene.top(shapes[-1]))
+    meshes = [*entities["ground"]["triangles"], *entities["shapes"]["triangles"]]
+    assert len(meshes) == 1 + len(shapes) - 1
+    top_area = 0.0
+    for mesh in meshes:
+        nodes = np.array([[p["x"], p["y"], p["z"]] for p in mesh["points"]])
+        triangles = nodes[np.array(mesh["indices"]).reshape(-1, 3)]
+        normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+        up = triangles[normal[:, 2] > 1e-6]
+        assert (normal[:, 2] > -1e-6).all()  # nothing is seen from below
+        middle = up.mean(axis=1)
+        seen = scene.height(*middle[:, :2].T)
+        own = mesh is not meshes[0]
+        assert np.allclose(middle[:, 2], seen, atol=2e-3) if own else np.all(middle[:, 2] <= seen + 2e-3)
+        top_area += normal[normal[:, 2] > 0.0, 2].sum() / 2 if not own else 0.0
+    x_min, y_min, x_max, y_max = scene.bounds
+    assert top_area == pytest.approx((x_max - x_min) * (y_max - y_min))
 
 
 # --- the schema ------------------------------------------------------------------------------------

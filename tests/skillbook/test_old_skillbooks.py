@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from lived import some_history
+from places import map_notes, some_maps
 from profiles import profile_notes, some_operators, some_profiles
 from schooling import random_lesson, tell_in, written_by
 
@@ -92,6 +93,19 @@ def test_the_operators_of_a_book_of_the_fifth_version_are_there(tmp_path):
     assert Skillbook.load(path).operators == some_operators()[::-1]
 
 
+def test_the_maps_of_a_book_of_the_sixth_version_are_there(tmp_path):
+    path = written_by(6, tmp_path / "sixth.skills")
+    book = Skillbook.load(path)
+    assert book == import_text((HERE / "version_6.txt").read_text(encoding="utf-8"))
+    assert book.name == "the sixth" and book.trust and book.profiles and book.operators == some_operators()
+    assert book.maps == some_maps()
+    with open_for_learning(path) as ledger:
+        ledger.keep_map(map_notes("a maze (seed 2)"))
+        ledger.keep_map(map_notes(some_maps()[0].place))
+    kept = (map_notes("a maze (seed 2)"), map_notes(some_maps()[0].place), *some_maps()[1:])
+    assert Skillbook.load(path).maps == kept
+
+
 def in_old_trees(rulebook, book):
     """What the rules say in the trees that there were when the book was written."""
     trees = book.rulebook.forest.names
@@ -110,7 +124,7 @@ def test_older_books_can_be_given_profiles(first):
 
 def test_a_newer_version_reads_and_teaches_older_books(first, rng, monkeypatch):
     book = Skillbook.load(first)
-    more = "CREATE TABLE maps (name TEXT NOT NULL PRIMARY KEY, content TEXT NOT NULL) STRICT"
+    more = "CREATE TABLE songs (name TEXT NOT NULL PRIMARY KEY, content TEXT NOT NULL) STRICT"
     with monkeypatch.context() as newer:
         newer.setattr(schema, "MIGRATIONS", (*schema.MIGRATIONS, more))
         newer.setattr("gaitwright.skillbook.store.MIGRATIONS", schema.MIGRATIONS)
@@ -121,7 +135,7 @@ def test_a_newer_version_reads_and_teaches_older_books(first, rng, monkeypatch):
             tell_in(ledger, SkillPupil(), random_lesson(rng, "a new lesson"))
             taught = ledger.book
         with closing(sqlite3.connect(first)) as db:
-            assert db.execute("SELECT count(*) FROM maps").fetchone() == (0,)
+            assert db.execute("SELECT count(*) FROM songs").fetchone() == (0,)
         assert Skillbook.load(first) == taught
-    with pytest.raises(BadFile, match="book version 6, this one reads up to 5"):
+    with pytest.raises(BadFile, match="book version 7, this one reads up to 6"):
         Skillbook.load(first)

@@ -4,14 +4,16 @@ import json
 import os
 import sqlite3
 import tracemalloc
+from base64 import b64encode
 from contextlib import closing
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from places import WALL, map_notes, some_maps
 from schooling import taught_skillbook
 
-from gaitwright.errors import BadFile
+from gaitwright.errors import BadFile, WrongUse
 from gaitwright.knowledge.lessons import Lesson
 from gaitwright.knowledge.memory import Action
 from gaitwright.knowledge.rules import Preference
@@ -28,7 +30,7 @@ def book():
     wish = Preference(rules[0], rules[1], situation, "lap 3")
     taught = Step("taught", Lesson("omission", "walk", situation, "lap 3", action=Action("walk")))
     rulebook = replace(book.rulebook, preferences=(wish,))
-    return replace(book, rulebook=rulebook, steps=(*book.steps, taught))
+    return replace(book, rulebook=rulebook, steps=(*book.steps, taught), maps=some_maps())
 
 
 @pytest.fixture
@@ -79,8 +81,8 @@ def test_another_programs_file_is_refused(tmp_path):
 
 
 def test_a_newer_book_is_refused(path):
-    alter(path, "PRAGMA user_version=6")
-    refused(path, "written by a newer Gaitwright: book version 6, this one reads up to 5")
+    alter(path, "PRAGMA user_version=7")
+    refused(path, "written by a newer Gaitwright: book version 7, this one reads up to 6")
     alter(path, "PRAGMA user_version=0")
     refused(path, "which never was")
     alter(path, "PRAGMA user_version=-5")
@@ -125,6 +127,9 @@ def test_a_book_with_other_tables_is_refused(path, statement):
         "UPDATE steps SET content = replace(content, 'walking', 'talking')",
         "UPDATE steps SET seal = x'0011223344556677'",
         "UPDATE rules SET content = '{}'",
+        "DELETE FROM maps WHERE place LIKE 'rooms%'",
+        "UPDATE maps SET place = 'elsewhere' WHERE place LIKE 'rooms%'",
+        "UPDATE maps SET content = replace(content, '0.0125', '0.0225')",
     ],
 )
 def test_rows_missing_or_altered_are_noticed(path, statement):
@@ -183,6 +188,56 @@ def test_hostile_rows_are_refused(path, table, edit, message):
     refused(path, message)
 
 
+def bytes_of(*numbers):
+    """Numbers as rows of a map hold them."""
+    return b64encode(np.array(numbers, "<f8").tobytes()).decode()
+
+
+NAN, FAR = bytes_of(*WALL[:2], np.nan, *WALL[3:]), bytes_of(*WALL[:2], 1e7, *WALL[3:])
+SHORT, ODD = bytes_of(*WALL[:2], *WALL[:2], *WALL[4:]), bytes_of(*WALL[:7], 3.0)
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        ({"place": "elsewhere"}, "of 3 maps it has 3, or under other names"),
+        ({"pieces": NAN}, "its map of rooms .seed 0. makes no sense"),
+        ({"pieces": FAR}, "makes no sense"),
+        ({"pieces": SHORT}, "makes no sense"),
+        ({"pieces": ODD}, "makes no sense"),
+        ({"pieces": bytes_of(*WALL, 1.0)}, "makes no sense"),
+        ({"pieces": "no numbers"}, "base64"),
+        ({"ways": [bytes_of(0.0, 1.0, 2.0)]}, "makes no sense"),
+        ({"ways": [bytes_of(0.0, np.inf)]}, "makes no sense"),
+        ({"ways": [""]}, "makes no sense"),
+        ({"ways": [bytes_of(0.0, 1.0)] * 1025}, "length <= 1024"),
+        ({"bounds": [0.0, 0.0, 0.0, 1.0]}, "makes no sense"),
+        ({"bounds": [0.0, 0.0, 1e300, 1.0]}, "<= 1000000"),
+        ({"radius": -1.0}, "radius"),
+        ({"noise": -1.0}, "noise"),
+        ({"shape": [8_000_000, 8_000_000]}, "makes no sense"),
+        ({"shape": [11, 12]}, "makes no sense"),
+        ({"shape": [11, 10**12]}, "shape"),
+        ({"free": ""}, "makes no sense"),
+        ({"colour": "red"}, "unknown field `colour`"),
+    ],
+)
+def test_hostile_maps_are_refused(path, changed, message):
+    restate(path, "maps", ("rooms (seed 0)",), changed)
+    refused(path, message)
+
+
+def test_a_book_holds_no_map_that_makes_no_sense(tmp_path, book):
+    for maps, message in (
+        ((map_notes(), map_notes()), "two maps of one place"),
+        ((map_notes(rows=((np.nan,) * 8,)),), "makes no sense"),
+        (tuple(map_notes(str(k)) for k in range(257)), "257 maps; 256 is the most"),
+    ):
+        with pytest.raises(WrongUse, match=message):
+            replace(book, maps=maps).save(tmp_path / "b.skills")
+    assert not (tmp_path / "b.skills").exists()
+
+
 def test_marks_that_do_not_fit_their_instances_are_refused(path):
     def widen(rule):
         rule["upper"] = ["any"] * len(rule["upper"])
@@ -228,7 +283,7 @@ def test_a_book_with_flipped_bytes_is_refused_or_the_same(path, book):
     assert unlike > 50
 
 
-@pytest.mark.parametrize("count", ["steps", "rules", "wishes", "trees", "ancestors", "profiles"])
+@pytest.mark.parametrize("count", ["steps", "rules", "wishes", "trees", "ancestors", "profiles", "maps"])
 def test_a_count_of_a_book_takes_no_memory_before_it_is_believed(path, count):
     restate(path, "book", (0,), {count: 900_000})
     told, peak = told_within(path)

@@ -186,4 +186,4 @@ def test_a_text_may_have_them_in_any_order(book):
 def test_a_book_without_the_table_it_counts_is_refused(path):
     with closing(sqlite3.connect(path, isolation_level=None)) as db:
         db.execute("DROP TABLE profiles")
-    refused(path, "other tables than a skillbook of version 5")
+    refused(path, "other tables than a skillbook of version 6")

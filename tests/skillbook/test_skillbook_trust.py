@@ -145,4 +145,4 @@ def test_a_book_that_counts_otherwise_is_refused(path):
     refused(path, "of 900000 entries of trust it has 6")
     with closing(sqlite3.connect(path, isolation_level=None)) as db:
         db.execute("DROP TABLE trust")
-    refused(path, "other tables than a skillbook of version 5")
+    refused(path, "other tables than a skillbook of version 6")

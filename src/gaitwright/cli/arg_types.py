@@ -39,6 +39,7 @@ BOOK_TASKS = {
     "forget": "BOOK forgets a LESSON by its name",
     "trust": "how far the learned controller is trusted with the skills of BOOK; with a SKILL: its history; "
     "with a GRADE: now it is apprentice, assistant, partner or skilled",
+    "map": "what BOOK knows of places, or of one PLACE; --out FILE.png draws it",
 }
 """What `gaitwright books` can do."""
 LONGEST = 3600.0

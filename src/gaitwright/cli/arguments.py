@@ -29,6 +29,7 @@ from gaitwright.cli.arg_types import (
 )
 from gaitwright.cli.balance_arguments import add_balance
 from gaitwright.cli.operator_arguments import add_operators
+from gaitwright.cli.sight_arguments import add_sight
 from gaitwright.plant.names import FAULTS, INTEGRATORS, JOINTS, PLANTS, SENSORS
 
 
@@ -51,7 +52,8 @@ def add_mission(parser: argparse.ArgumentParser) -> None:
     fitting = "wished speed in m/s (what the robot trots at)"
     parser.add_argument("--speed", type=positive, metavar="V", help=fitting)
     rules = (
-        "drivers hybrid and learned: the rules that choose the skills, and the torque profiles, of this book"
+        "drivers hybrid and learned: the rules that choose the skills, and the torque profiles of this book; "
+        "--sight camera, with any driver: the map of this place, from earlier trips and for later ones"
     )
     parser.add_argument("--skillbook", metavar="FILE", help=rules)
     own = (
@@ -92,7 +94,7 @@ def add_robot_and_scene(parser: argparse.ArgumentParser, scene: str) -> None:
     robot = "a name that `gaitwright robots` lists, or an MJCF or URDF file (go2)"
     parser.add_argument("--robot", default="go2", metavar="NAME|FILE", help=robot)
     add_packages(parser)
-    where = f"a name that `gaitwright scenes` lists, or a JSON file ({scene})"
+    where = f"a name that `gaitwright scenes` lists, a JSON or a PNG file ({scene})"
     parser.add_argument("--scene", default=scene, metavar="NAME|FILE", help=where)
 
 
@@ -123,6 +125,7 @@ def add_run(parser: argparse.ArgumentParser, seconds: float) -> None:
     parser.add_argument("--seed", type=seed, default=0, metavar="N", help=random)
     parser.add_argument("--out", metavar="DIR", help="a new folder for picture, recording and report")
     add_plant(parser)
+    add_sight(parser)
     state = f"what the robot knows of its own state: {listed(SENSINGS)} (true)"
     parser.add_argument("--sensing", type=sensing, default="true", metavar="NAME", help=state)
     noise = f"how good its sensors are: {listed(SENSORS)} (exact; with --sensing estimated: go2)"
@@ -168,6 +171,15 @@ def add_robots(parser: argparse.ArgumentParser) -> None:
     which = "examine this robot: a name, or an MJCF or URDF file"
     parser.add_argument("--check", metavar="FILE|NAME", help=which)
     add_packages(parser)
+
+
+def add_scenes(parser: argparse.ArgumentParser) -> None:
+    plot = "draw these from above, all that come along where none is named"
+    parser.add_argument("--plot", nargs="*", metavar="NAME|FILE", help=plot)
+    parser.add_argument("--out", metavar="FILE", help="where to draw (runs/scenes.png)")
+    parser.add_argument("--seed", type=seed, default=0, metavar="N", help="draws their random parts (0)")
+    size = "in the size of this robot, and hatched what it walks around (go2)"
+    parser.add_argument("--robot", default="go2", metavar="NAME|FILE", help=size)
 
 
 def add_skills(parser: argparse.ArgumentParser) -> None:
@@ -240,9 +252,10 @@ def add_books(parser: argparse.ArgumentParser) -> None:
         "files",
         nargs="+",
         metavar="FILE",
-        help="the books, or the text to import; a skill (confirm, trust), a lesson (forget), a table (edit)",
+        help="the books, or the text to import; a skill (confirm, trust), a lesson (forget), a table (edit), "
+        "a place (map)",
     )
-    out = "the new book, or where the text goes (export: the standard output; merge, import: needed)"
+    out = "the new book (merge, import: needed), the text (export: the standard output), the picture (map)"
     parser.add_argument("--out", metavar="FILE|-", help=out)
     accept = "edit: take it in, after it was shown in physics (only show it)"
     parser.add_argument("--accept", action="store_true", help=accept)
@@ -274,7 +287,7 @@ ADD = {
     "mission": add_mission,
     "skill": add_skill,
     "robots": add_robots,
-    "scenes": add_nothing,
+    "scenes": add_scenes,
     "skills": add_skills,
     "teach": add_teach,
     "explain": add_explain,

@@ -54,10 +54,10 @@ def check_there(path: str, what: str) -> None:
         raise BadFile(f"no file {short(path)}: {what} is wanted")
 
 
-def new_file(where: str, what: str) -> Path:
+def new_file(where: str, what: str, option: str = "--out") -> Path:
     """The path of a file that is to be made. Raises `WrongUse` where it is there already, or cannot be
     made."""
-    path = settled(where, "--out")
+    path = settled(where, option)
     if path.exists() or path.is_symlink():
         raise WrongUse(f"{path} exists: name a new {what}, or remove that one")
     if not path.parent.is_dir():

@@ -1,4 +1,4 @@
-"""`gaitwright books`: two skillbooks joined to one; one as text, and back; lessons taken back; trust."""
+"""`gaitwright books`: two skillbooks joined to one; one as text and back; lessons taken back; trust, maps."""
 
 import json
 import sys
@@ -6,7 +6,7 @@ from argparse import Namespace
 from dataclasses import asdict, replace
 from pathlib import Path
 
-from gaitwright.cli import book_lessons, profiles, trust
+from gaitwright.cli import book_lessons, maps, profiles, trust
 from gaitwright.cli.book_files import SQLITE, check_there, facts_of, new_file, skillbook_of
 from gaitwright.cli.console import remark, show_pairs, show_prose, working
 from gaitwright.cli.explain_text import counted
@@ -28,6 +28,7 @@ FILES = {
     "forget": ("BOOK", "LESSON"),
     "edit": ("BOOK", "TABLE"),
     "trust": ("BOOK", "[SKILL", "[GRADE]]"),
+    "map": ("BOOK", "[PLACE]"),
 }
 """What each task is given; in brackets what may be left out."""
 
@@ -76,7 +77,9 @@ def tell_merge(ours: Skillbook, theirs: Skillbook, merged: Merged, args: Namespa
     rules = [rule.name for rule in book.rulebook.rules]
     new = [name for name in rules if name not in known]
     steps, profiles = len(book.steps) - len(ours.steps), len(book.profiles) - len(ours.profiles)
-    taken = [counted(n, what) for n, what in ((steps, "step"), (profiles, "torque profile")) if n]
+    places = sum(notes not in ours.maps for notes in book.maps)
+    news = ((steps, "step"), (profiles, "torque profile"), (places, "map"))
+    taken = [counted(n, what) for n, what in news if n]
     figures = {
         "book": args.out,
         "ours": mine,
@@ -85,6 +88,7 @@ def tell_merge(ours: Skillbook, theirs: Skillbook, merged: Merged, args: Namespa
         "new_rules": new,
         "new_steps": steps,
         "new_profiles": profiles,
+        "new_maps": places,
         "conflicts": [asdict(conflict) for conflict in merged.conflicts],
         "hash": content_hash(book),
     }
@@ -189,4 +193,4 @@ IN_PLACE = {
     "trust": trust.run,
 }
 """The tasks that change a book itself."""
-TASKS = {"merge": merge_books, "export": export_book, "import": import_book, **IN_PLACE}
+TASKS = {"merge": merge_books, "export": export_book, "import": import_book, "map": maps.run, **IN_PLACE}

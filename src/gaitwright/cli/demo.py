@@ -14,7 +14,7 @@ from gaitwright.cli.teach_operators import run as over_obstacles
 from gaitwright.cli.teach_profiles import learned
 from gaitwright.cli.trip_rows import show_trips
 from gaitwright.control.takeover import HYBRID, NUMERICAL
-from gaitwright.learning.growth import Returns
+from gaitwright.driving import Memories
 from gaitwright.learning.practice import after_trip
 from gaitwright.learning.teacher import teacher_for
 from gaitwright.model.robot import Robot
@@ -52,7 +52,7 @@ def run(args: Namespace) -> int:
         )
         setting, driven = trips.set_up(robot, field(robot, args.seed), DefaultChooser(robot), "qp"), []
 
-        def keep(recording: Recording, _: Returns) -> None:
+        def keep(recording: Recording, _: Memories) -> None:
             driven.append(("first", recording.report()))
 
         code = trips.run(setting, Mission((GOAL,), driver=NUMERICAL), before, after=keep)
@@ -70,10 +70,10 @@ def run(args: Namespace) -> int:
 def second(robot: Robot, book: Path, args: Namespace, driven: list[tuple[str, Report]]) -> int:
     """The crossing by what was learned, what it does to the book, and both crossings side by side."""
 
-    def after(recording: Recording, handed_back: Returns) -> None:
+    def after(recording: Recording, memories: Memories) -> None:
         driven.append(("second", recording.report()))
         with open_for_learning(book) as ledger:
-            for sentence in after_trip(ledger, recording, handed_back, "the second crossing"):
+            for sentence in after_trip(ledger, recording, memories.drive.handed_back, "the second crossing"):
                 remark(sentence)
         show_trips(driven, to_stderr=args.json == "-")
 

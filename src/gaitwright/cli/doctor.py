@@ -16,10 +16,10 @@ from shutil import get_terminal_size
 from gaitwright.cli.output import check_json, write_json
 from gaitwright.cli.sentences import between_words
 
-CORE = ("filelock", "jaxtyping", "msgspec", "mujoco", "numba", "numpy", "rich", "shapely")
+CORE = ("filelock", "jaxtyping", "msgspec", "mujoco", "numba", "numpy", "pillow", "rich", "shapely")
 """What Gaitwright cannot run without, by the names of modules and distributions."""
 EXTRAS = {"plot": ("matplotlib",), "record": ("mcap-ros2-support",)}
-MODULES = {"mcap-ros2-support": "mcap_ros2"}
+MODULES = {"mcap-ros2-support": "mcap_ros2", "pillow": "PIL"}
 """Modules that are not named as their distribution."""
 MUJOCO = "3.10 or later, not 4.0.0"
 

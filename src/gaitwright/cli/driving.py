@@ -8,12 +8,16 @@ from gaitwright.cli.console import remark, working
 from gaitwright.control.balance_file import load_balance
 from gaitwright.control.balance_rules import BalanceRules
 from gaitwright.control.learned.profile import Profile
+from gaitwright.control.takeover import HYBRID, LEARNED
 from gaitwright.errors import WrongUse, short
 from gaitwright.learning.equipped import equipped
 from gaitwright.learning.profile_books import Playable, playable
 from gaitwright.locomotion import Brain
 from gaitwright.model.robot import Robot
 from gaitwright.skillbook.book import Skillbook
+
+BY_BOOK = (HYBRID, LEARNED)
+"""Drivers that go by a skillbook."""
 
 
 def profiles_for(robot: Robot, path: str) -> dict[str, list[Profile]]:
@@ -71,7 +75,7 @@ def balance_for(args: Namespace) -> BalanceRules | None:
     """The rules of balance asked for. Raises `BadFile`, and `WrongUse` where nobody plays profiles."""
     if args.balance is None:
         return None
-    if args.skillbook is None:
+    if args.skillbook is None or args.driver not in BY_BOOK:
         raise WrongUse("--balance answers while profiles are played: add --skillbook FILE and its driver")
     return load_balance(args.balance)
 

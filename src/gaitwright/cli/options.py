@@ -63,9 +63,17 @@ COMMANDS = {
     ),
     "scenes": Command(
         "the scenes that come along",
-        "The built-in scenes. Some take a number after a colon. Other scenes come from JSON files: "
-        "--scene FILE.json.",
-        ("gaitwright scenes", "gaitwright mission --scene stairs:0.08 --goal 6 0"),
+        "The built-in scenes. Some take a number after a colon. --plot draws scenes from above. Other scenes "
+        "come from JSON files, --scene FILE.json, as "
+        '{"boxes": [{"x": 2, "y": 0, "lx": 0.5, "ly": 0.4, "height": 0.3}], "shapes": [{"type": "cylinder", '
+        '"x": 4, "y": 1, "radius": 0.2, "height": 0.8}], "holes": [{"outline": [[5, -1], [6, -1], [6, 1]], '
+        '"depth": 0.3}], "goal": [7, 0]}; docs/scenes.md tells all that one may hold. A grey PNG is a '
+        "height map: --scene FILE.png:ACROSS:RELIEF, metres from side to side and from black to white.",
+        (
+            "gaitwright scenes",
+            "gaitwright scenes --plot forest maze:0.8 yard.json --seed 3 --out scenes.png",
+            "gaitwright mission --scene stairs:0.08 --goal 6 0",
+        ),
     ),
     "skills": Command(
         "the skills, with their speeds for a robot",
@@ -118,7 +126,7 @@ COMMANDS = {
         "a skill that `gaitwright teach` proposed by analogy, undo forgets the last lesson that counts (what "
         "was confirmed together counts as one), forget a lesson, or an edited profile, by its name, edit "
         "takes in what you changed in a profile's table (`gaitwright skills --profile`). trust shows how far "
-        "the learned controller is trusted with each skill, and sets it.",
+        "the learned controller is trusted with each skill, and sets it. map shows what is known of places.",
         (
             "gaitwright books merge mine.skills yours.skills --out both.skills",
             "gaitwright books confirm mine.skills walk-backward     # `books undo` takes it back",

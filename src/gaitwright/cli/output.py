@@ -89,6 +89,19 @@ def check_folder(where: str | None) -> str | None:
     return str(path)
 
 
+def check_picture(where: str | None) -> str | None:
+    """The path that `--out` leads to; `WrongUse` where it names what cannot be written as a picture."""
+    if where is None:
+        return None
+    path = settled(where, "--out").absolute()
+    if path.suffix.lower() != ".png" or path.is_dir():
+        raise WrongUse(f"--out {where}: the picture is a PNG file; name one that ends in .png")
+    nearest = next(parent for parent in path.parents if parent.exists())
+    if not (nearest.is_dir() and os.access(nearest, os.W_OK)):
+        raise WrongUse(f"--out {where}: no permission to write to {nearest}")
+    return str(settled(where, "--out"))
+
+
 def numbered_folder(stem: str) -> Path:
     """The first folder `stem`-001, `stem`-002, … that is not there yet; makes it."""
     for number in range(1, sys.maxsize):

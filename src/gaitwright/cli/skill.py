@@ -7,6 +7,7 @@ from gaitwright.assess.motor_requirements import HOPELESS, shortage, too_wide
 from gaitwright.cli import trips
 from gaitwright.cli.console import remark, working
 from gaitwright.cli.driving import balance_for, by_book, profiles_of_skill
+from gaitwright.cli.sight_arguments import sight_of
 from gaitwright.control.takeover import HYBRID, LEARNED
 from gaitwright.errors import WrongUse
 from gaitwright.gait.climb.climber import Climber, climb_call
@@ -32,6 +33,7 @@ def run(args: Namespace) -> int:
         raise WrongUse("driver learned and --skillbook FILE go together: it plays the profiles of that book")
     balance = balance_for(args)  # a file that cannot be read is told before anything is made
     robot = trips.find_robot(args.robot, args.package)
+    sight = sight_of(args, robot)
     skill = find_skill(args.skill, robot)
     scene = trips.find_scene(args.scene, args.seed, robot)
     if args.plant == "kinematic" and skill.name in PLANNED:
@@ -41,7 +43,7 @@ def run(args: Namespace) -> int:
     cycle = load_cycle(args.cycle) if args.cycle else None
     check_motors(robot, chooser.skill_call, cycle)
     push = Push(*args.push, at=args.seconds / 2) if args.push else None
-    setting = trips.set_up(robot, scene, chooser, args.distribution, args.sensing)
+    setting = trips.set_up(robot, scene, chooser, args.distribution, args.sensing, sight)
     if args.skillbook:
         profiles = profiles_of_skill(robot, args.skillbook, skill.name)
         brain = by_book(setting.brain, args.skillbook, profiles)

@@ -1,14 +1,13 @@
 """`gaitwright skills`: the skills, with their periods, speeds and leg cycles on a robot."""
 
 import json
-import os
 import re
 from argparse import Namespace
 from pathlib import Path
 
 from gaitwright.cli import profiles
 from gaitwright.cli.console import remark, show_table, working
-from gaitwright.cli.output import check_json, settled, write_json
+from gaitwright.cli.output import check_json, check_picture, write_json
 from gaitwright.cli.trips import find_robot, has
 from gaitwright.errors import WrongUse
 from gaitwright.gait.leg_cycles.check import Fault, check_cycle
@@ -127,16 +126,3 @@ def picture(
         cycles_picture(robot, panels, path)
     remark(f"picture: {path}")
     return str(path)
-
-
-def check_picture(where: str | None) -> str | None:
-    """The path that `--out` leads to; `WrongUse` where it names what cannot be written as a picture."""
-    if where is None:
-        return None
-    path = settled(where, "--out").absolute()
-    if path.suffix.lower() != ".png" or path.is_dir():
-        raise WrongUse(f"--out {where}: the picture is a PNG file; name one that ends in .png")
-    nearest = next(parent for parent in path.parents if parent.exists())
-    if not (nearest.is_dir() and os.access(nearest, os.W_OK)):
-        raise WrongUse(f"--out {where}: no permission to write to {nearest}")
-    return str(settled(where, "--out"))

@@ -14,17 +14,20 @@ from gaitwright.cli.mechanics_check import Checks
 from gaitwright.cli.output import check_folder, check_json, write_json, write_whole
 from gaitwright.control.numerical import Method
 from gaitwright.description.load import load_robot_and_notes
+from gaitwright.driving import Memories
 from gaitwright.errors import WrongUse, told
 from gaitwright.ground.scene import Scene
-from gaitwright.learning.growth import Returns
 from gaitwright.locomotion import Brain, Lap
+from gaitwright.model.camera import Camera
 from gaitwright.model.robot import Robot
 from gaitwright.navigation.navigator import Navigator
 from gaitwright.numerics.compiled import is_warm
 from gaitwright.perception.estimated_state import Sensing
+from gaitwright.perception.known_ground import map_of
 from gaitwright.plant.faults import FaultyPlant, breakdown
 from gaitwright.plant.imperfections import NOISE, Imperfections
 from gaitwright.plant.registry import make_plant
+from gaitwright.plant.seeing import SeeingPlant
 from gaitwright.record.recording import INTERRUPTED, Recording, Report
 from gaitwright.session import DT, Push, Session, record, scene_for, walk
 from gaitwright.signals import Mission
@@ -42,6 +45,8 @@ class Setting:
     scene: Scene
     varied: bool = True
     """Whether the start has small differences, drawn from the seed."""
+    camera: Camera | None = None
+    """What it sees the ground with; `None`: nothing."""
 
     @property
     def robot(self) -> Robot:
@@ -68,6 +73,8 @@ def find_scene(asked: str, seed: int, robot: Robot, start: list[float] | None = 
     """The scene of that name or file, in the robot's size, with `start` (x, y, yaw) where given."""
     with working(f"reading scene {told(asked)}", worth_a_line=None):
         scene = scene_for(robot, asked, seed)
+    for note in scene.notes:
+        remark(f"{scene.name}: {note}")
     if start is None:
         return scene
     x, y, yaw = start
@@ -88,18 +95,26 @@ def check_inside(what: str, point: tuple[float, float], scene: Scene) -> None:
 
 
 def set_up(
-    robot: Robot, scene: Scene, chooser: Chooser, distribution: Method, sensing: Sensing = "true"
+    robot: Robot,
+    scene: Scene,
+    chooser: Chooser,
+    distribution: Method,
+    sensing: Sensing = "true",
+    sight: Camera | str = "known",
 ) -> Setting:
-    """The brain of a robot in a scene. Raises `WrongUse` where the start is no place to stand."""
+    """The brain of a robot in a scene; `sight`: known, blind, or its camera. Raises `WrongUse` where the
+    start is no place to stand."""
     x, y, _ = scene.start
+    camera = sight if isinstance(sight, Camera) else None
     with working(f"mapping scene {scene.name}", worth_a_line=None):
-        brain = Brain.of(robot, scene, chooser, DT, distribution, sensing=sensing)
-        on_obstacle = Navigator(robot).view(brain.perception.ground).blocked((x, y))
+        sees = sight != "blind"
+        brain = Brain.of(robot, scene, chooser, DT, distribution, sees=sees, sensing=sensing, camera=camera)
+        on_obstacle = Navigator(robot).view(map_of(scene, robot, sees)).blocked((x, y))
     if on_obstacle:
         raise WrongUse(
             f"the start ({x:g}, {y:g}) is on an obstacle of scene {scene.name}, or too near to one"
         )
-    return Setting(brain, scene)
+    return Setting(brain, scene, camera=camera)
 
 
 def check_mechanics(driver: str, args: Namespace) -> None:
@@ -133,10 +148,10 @@ def run(
     mission: Mission,
     args: Namespace,
     push: Push | None = None,
-    after: Callable[[Recording, Returns], None] = lambda recording, handed_back: None,
+    after: Callable[[Recording, Memories], None] = lambda recording, memories: None,
 ) -> int:
     """Simulates, reports, leaves the files in `args.out`; returns the exit code. `after` gets what was
-    recorded, and when a skill was handed back for not being the taught situation."""
+    recorded and what the robot remembers, also where the rest is broken off."""
     check_mechanics(mission.driver, args)
     broken = [breakdown(setting.robot, *asked) for asked in getattr(args, "fault", [])]
     senses = sensors_of(args)
@@ -167,16 +182,17 @@ def run(
 
         is_faulty = broken or senses != Imperfections()
         whole = FaultyPlant(plant, setting.robot, broken, senses) if is_faulty else plant
+        whole = SeeingPlant(whole, setting.camera, setting.scene) if setting.camera else whole
         session = Session(setting.brain, whole, mission, args.seconds, args.seed, setting.varied, lowers=True)
         if push:
             session.push(push)
         recording = record(session, args.seed, setting.scene.name, watch)
     if not len(recording):
         raise KeyboardInterrupt
-    wall = perf_counter() - began
-    code = finish(setting, recording, args, wall, checks)
-    after(recording, session.mind.memories.drive.handed_back)
-    return code
+    try:
+        return finish(setting, recording, args, perf_counter() - began, checks)
+    finally:
+        after(recording, session.mind.memories)
 
 
 def warm_up(setting: Setting, plant: Plant, mission: Mission) -> None:

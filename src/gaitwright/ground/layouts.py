@@ -6,26 +6,12 @@ start at (0, 0) and look along x.
 
 import math
 from collections.abc import Callable, Iterable
-from typing import NamedTuple
 
 import numpy as np
 
-from gaitwright.ground.terrain import Box, Flat, HeightField, Slope, Surface
-
-Bounds = tuple[float, float, float, float]
-
-FRICTION = 0.8
-"""Coefficient of friction where nothing else is said [-]."""
-
-
-class Layout(NamedTuple):
-    """A ground with what stands on it."""
-
-    surface: Surface
-    boxes: tuple[Box, ...]
-    bounds: Bounds
-    """x_min, y_min, x_max, y_max [m]."""
-    friction: float = FRICTION
+from gaitwright.ground import courses, landscapes, towns
+from gaitwright.ground.layout import Bounds, Layout
+from gaitwright.ground.terrain import Box, Flat, HeightField, Slope, smooth_step
 
 
 def _bounds(scale: float) -> Bounds:
@@ -68,12 +54,6 @@ LEVEL, BLEND = 0.6, 0.4
 """Radius of the level start, and the width over which the hills grow from it [m]."""
 RIM = 1.0
 """How far the rough ground goes on beyond the bounds [m]."""
-
-
-def smooth_step(t: np.ndarray) -> np.ndarray:
-    """From 0 to 1 with no slope at either end; constant outside."""
-    t = np.clip(t, 0.0, 1.0)
-    return t * t * (3.0 - 2.0 * t)
 
 
 def rough(amplitude: float, scale: float, rng: np.random.Generator) -> Layout:
@@ -129,7 +109,12 @@ def blocks(_: float, scale: float, rng: np.random.Generator) -> Layout:
         block = _block(rng, (x_min, y_min, x_max, y_max), (0.2, 0.5), (0.02, 0.04))
         if len(small) < SMALL and _apart(block, [*large, *small], 0.05) and _off_ends(block):
             small.append(block)
-    return Layout(Flat(), tuple(_scaled(block, scale) for block in [*large, *small]), _bounds(scale))
+    return Layout(
+        Flat(),
+        tuple(_scaled(block, scale) for block in [*large, *small]),
+        _bounds(scale),
+        goal=(GOAL[0] * scale, GOAL[1] * scale),
+    )
 
 
 def _block(
@@ -249,5 +234,15 @@ BUILDERS: dict[str, Callable[[float, float, np.random.Generator], Layout]] = {
     "ramp": ramp,
     "gap": gap,
     "boxes": boxes,
+    "holes": landscapes.holes,
+    "trench": landscapes.trench,
+    "waves": landscapes.waves,
+    "hills": landscapes.hills,
+    "forest": towns.forest,
+    "streets": towns.streets,
+    "rooms": towns.rooms,
+    "maze": towns.maze,
+    "bugtrap": towns.bugtrap,
+    "mixed": courses.mixed,
 }
 """One builder per name of `scenes_list.OFFERS`."""

@@ -3,82 +3,39 @@
 ```json
 {"surface": {"type": "slope", "pitch": 0.1},
  "boxes": [{"x": 2, "y": 0, "yaw": 0.3, "lx": 0.5, "ly": 0.4, "height": 0.3}],
+ "shapes": [{"type": "cylinder", "x": 4, "y": 1, "radius": 0.2, "height": 0.8}],
+ "holes": [{"outline": [[5, -1], [6, -1], [6, 1]], "depth": 0.3}],
  "bounds": [-4, -4, 10, 4], "start": [0, 0, 0], "friction": 0.8}
 ```
-Surfaces: `flat`, `slope` (pitch, cross [rad]), `heights` (x_min, y_min, spacing [m], heights: rows along y).
+docs/scenes.md tells every entry; `scene_entries` reads them.
 """
 
 import json
 import re
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any, TypeVar
 
 import msgspec
-import numpy as np
-from msgspec import Meta
+import shapely
 
 from gaitwright.errors import BadFile, printable, short
 from gaitwright.files import content_of, json_of
-from gaitwright.ground.terrain import Box, Flat, HeightField, Slope, Surface
+from gaitwright.ground.holes import Hole, dug
+from gaitwright.ground.outlines import Outline
+from gaitwright.ground.patches import Patch
+from gaitwright.ground.scene_entries import MAX_NAME, SceneEntry, read_outline
+from gaitwright.ground.terrain import Box, HeightField
 
 MAX_BYTES = 5_000_000
-MAX_BOXES = 2000
-MAX_NAME = 80
-MAX_NODES = 1000
+MOST_CORNERS = 4000
+"""Of all outlines of holes: physics has a piece of ground for every few."""
 SMALLEST = 1e-4
 """Of friction [-] and of the sides of a box [m]."""
+OVERLAP = 1e-6
+"""Holes that share less than this do not overlap [m²]."""
 
-Place = Annotated[float, Meta(ge=-1000.0, le=1000.0)]
-Length = Annotated[float, Meta(gt=0.0, le=1000.0)]
-Angle = Annotated[float, Meta(ge=-7.0, le=7.0)]
-Incline = Annotated[float, Meta(ge=-1.0, le=1.0)]
-Row = Annotated[list[Place], Meta(min_length=2, max_length=MAX_NODES)]
-
-
-class Strict(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Refuses what it does not know."""
-
-
-class FlatEntry(Strict, frozen=True, tag="flat"):
-    def surface(self) -> Surface:
-        return Flat()
-
-
-class SlopeEntry(Strict, frozen=True, tag="slope"):
-    pitch: Incline = 0.0
-    cross: Incline = 0.0
-
-    def surface(self) -> Surface:
-        return Slope(self.pitch, self.cross)
-
-
-class HeightsEntry(Strict, frozen=True, tag="heights"):
-    x_min: Place
-    y_min: Place
-    spacing: Annotated[float, Meta(ge=0.001, le=100.0)]
-    heights: Annotated[list[Row], Meta(min_length=2, max_length=MAX_NODES)]
-
-    def surface(self) -> Surface:
-        return HeightField(self.x_min, self.y_min, self.spacing, np.array(self.heights))
-
-
-class BoxEntry(Strict, frozen=True):
-    x: Place
-    y: Place
-    lx: Length
-    ly: Length
-    height: Length
-    yaw: Angle = 0.0
-    base: Annotated[float, Meta(ge=0.0, le=1000.0)] = 0.0
-
-
-class SceneEntry(Strict, frozen=True):
-    name: Annotated[str, Meta(max_length=MAX_NAME)] = ""
-    surface: FlatEntry | SlopeEntry | HeightsEntry = FlatEntry()
-    boxes: Annotated[list[BoxEntry], Meta(max_length=MAX_BOXES)] = []
-    bounds: tuple[Place, Place, Place, Place] = (-4.0, -4.0, 10.0, 4.0)
-    start: tuple[Place, Place, Angle] = (0.0, 0.0, 0.0)
-    friction: Annotated[float, Meta(gt=0.0, le=5.0)] = 0.8
+Made = TypeVar("Made")
 
 
 def read(path: str) -> dict[str, Any]:
@@ -90,29 +47,85 @@ def read(path: str) -> dict[str, Any]:
         raise BadFile(f"{asked}: {_sentence(str(error), content)}") from None
     _check(asked, entry)
     _check_small(asked, entry)
-    boxes = tuple(Box(**msgspec.structs.asdict(box)) for box in entry.boxes)
+    notes: list[str] = []
+    shapes = _made(asked, "shapes", (shape.solid for shape in entry.shapes), notes)
+    holes = [
+        Hole(outline, hole.depth)
+        for outline, hole in zip(_outlines(asked, "holes", entry.holes, notes), entry.holes, strict=True)
+    ]
+    patches = zip(_outlines(asked, "patches", entry.patches, notes), entry.patches, strict=True)
+    _look_at_holes(asked, holes, entry, notes)
+    surface = _tried(asked, lambda: entry.surface.surface(Path(path).parent))
+    if holes and isinstance(surface, HeightField):
+        notes.append(
+            f"the walls of its holes are {surface.spacing:g} m wide, as the cells of its heights are"
+        )
     return {
         "name": printable(entry.name or Path(path).stem)[:MAX_NAME],
-        "surface": entry.surface.surface(),
-        "boxes": boxes,
+        "surface": dug(surface, holes),
+        "boxes": tuple(Box(**msgspec.structs.asdict(box)) for box in entry.boxes),
+        "shapes": tuple(shapes),
+        "holes": tuple(holes),
+        "patches": tuple(Patch(outline, patch.friction) for outline, patch in patches),
         "bounds": entry.bounds,
         "start": entry.start,
+        "goal": entry.goal,
         "friction": entry.friction,
+        "notes": tuple(notes),
     }
+
+
+def _made(
+    asked: str, field: str, make: Iterable[Callable[[], tuple[Made, str]]], notes: list[str]
+) -> list[Made]:
+    """What the entries of a field make; what was mended in them joins the notes. Raises `BadFile`."""
+    out = []
+    for k, one in enumerate(make):
+        made, said = _tried(f"{asked}: {field}[{k}]", one, between=" ")
+        out.append(made)
+        if said:
+            notes.append(f"{field}[{k}]: {said}")
+    return out
+
+
+def _outlines(asked: str, field: str, entries: Iterable[Any], notes: list[str]) -> list[Outline]:
+    return _made(asked, field, ((lambda e=entry: read_outline(e.outline)) for entry in entries), notes)
+
+
+def _tried(asked: str, make: Callable[[], Made], between: str = ": ") -> Made:
+    """What is made; `BadFile` where it cannot be."""
+    try:
+        return make()
+    except ValueError as error:
+        raise BadFile(f"{asked}{between}{error}") from None
+
+
+def _look_at_holes(asked: str, holes: list[Hole], entry: SceneEntry, notes: list[str]) -> None:
+    """Notes holes that overlap or lie where nobody comes. Raises `BadFile` for too many corners."""
+    corners = sum(len(hole.outline) for hole in holes)
+    if corners > MOST_CORNERS:
+        raise BadFile(f"{asked}: the holes have {corners} corners together, and may have {MOST_CORNERS}")
+    outlines = [shapely.Polygon(hole.outline) for hole in holes]
+    field = shapely.box(*entry.bounds)
+    notes += [
+        f"holes[{k}] lies outside the bounds" for k, one in enumerate(outlines) if not one.intersects(field)
+    ]
+    pairs = shapely.STRtree(outlines).query(outlines, predicate="intersects").T if outlines else ()
+    notes += [
+        f"holes[{k}] overlaps holes[{other}]: where both are the deeper one counts"
+        for k, other in pairs
+        if other < k and outlines[k].intersection(outlines[other]).area > OVERLAP
+    ]
 
 
 def _check(asked: str, entry: SceneEntry) -> None:
     """What types cannot say. Raises `BadFile`."""
     x_min, y_min, x_max, y_max = entry.bounds
-    x, y, _ = entry.start
     if not (x_min < x_max and y_min < y_max):
         raise BadFile(f"{asked}: bounds is {list(entry.bounds)}, expected x_min, y_min, x_max, y_max")
-    if not (x_min <= x <= x_max and y_min <= y <= y_max):
-        raise BadFile(
-            f"{asked}: start is {list(entry.start)}, which lies outside bounds {list(entry.bounds)}"
-        )
-    if isinstance(entry.surface, HeightsEntry) and len({len(row) for row in entry.surface.heights}) > 1:
-        raise BadFile(f"{asked}: surface.heights has rows of different lengths")
+    for name, place in (("start", entry.start), ("goal", entry.goal)):
+        if place and not (x_min <= place[0] <= x_max and y_min <= place[1] <= y_max):
+            raise BadFile(f"{asked}: {name} is {list(place)}, which lies outside bounds {list(entry.bounds)}")
 
 
 def _check_small(asked: str, entry: SceneEntry) -> None:

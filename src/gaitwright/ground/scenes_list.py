@@ -17,6 +17,8 @@ class Offer(NamedTuple):
     high: float = 0.0
 
 
+DIFFICULTY = ("a difficulty", 0.5, 0.0, 1.0)
+
 OFFERS = {
     "flat": Offer("level ground"),
     "slippery": Offer("level ground with little grip", "a coefficient of friction", 0.3, 0.05, 2.0),
@@ -33,6 +35,18 @@ OFFERS = {
     "ramp": Offer("a ramp up, a platform, a ramp down", "an angle in degrees", 20.0, 1.0, 45.0),
     "gap": Offer("three gaps in the ground, half a metre deep", "a width in metres", 0.2, 0.01, 1.0),
     "boxes": Offer("two boxes across the way", "their height in metres", 0.08, 0.01, 0.5),
+    "holes": Offer("holes in level ground, on the way to the goal (12, 0)", *DIFFICULTY),
+    "trench": Offer("three trenches across the way, on it to the goal (6, 0)", *DIFFICULTY),
+    "waves": Offer("long waves of the ground, a Cardinal spline; goal (12, 0)", *DIFFICULTY),
+    "hills": Offer("hills and hollows, of Bézier patches; goal (12, 0)", *DIFFICULTY),
+    "forest": Offer("trunks, boulders and stumps; goal (12, 0)", *DIFFICULTY),
+    "streets": Offer(
+        "streets from east to west and north to south between houses, some shut; goal (12, 0)", *DIFFICULTY
+    ),
+    "rooms": Offer("rooms with doors; goal (12, 0)", *DIFFICULTY),
+    "maze": Offer("a maze; goal (12, 0)", *DIFFICULTY),
+    "bugtrap": Offer("a bay in the straight way, out of which one must turn back; goal (12, 0)", *DIFFICULTY),
+    "mixed": Offer("blocks, holes, a ramp, steps and rough ground; goal (15, 0)", *DIFFICULTY),
 }
 
 
@@ -52,7 +66,7 @@ def parse(asked: str) -> tuple[str, float]:
     """
     name, colon, text = asked.partition(":")
     if name not in OFFERS:
-        raise unknown("scene", asked, [*OFFERS, "or the path of a .json file"])
+        raise unknown("scene", asked, [*OFFERS, "or the path of a .json or .png file"])
     offer = OFFERS[name]
     if not colon:
         return name, offer.default

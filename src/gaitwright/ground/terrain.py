@@ -1,4 +1,4 @@
-"""What robots walk on: a surface that tells its height and its normal, and boxes that stand on it.
+"""What robots walk on: a surface that tells its height and its normal, and solids that stand on it.
 
 World frame, metres and radians. Every method takes numbers or arrays `x`, `y` that broadcast together.
 """
@@ -42,7 +42,7 @@ class Slope(Surface):
 
     def normal(self, x: Number, y: Number) -> Float[np.ndarray, "... 3"]:
         shape = np.broadcast(x, y).shape
-        return np.broadcast_to(_upward(math.tan(self.pitch), math.tan(self.cross)), (*shape, 3))
+        return np.broadcast_to(upward(math.tan(self.pitch), math.tan(self.cross)), (*shape, 3))
 
 
 @final
@@ -87,7 +87,7 @@ class HeightField(Surface):
 
     def normal(self, x: Number, y: Number) -> Float[np.ndarray, "... 3"]:
         _, _, _, gain_x, gain_y = self._triangle(x, y)
-        return _upward(gain_x / self.spacing, gain_y / self.spacing)
+        return upward(gain_x / self.spacing, gain_y / self.spacing)
 
     def _triangle(self, x: Number, y: Number) -> tuple[Number, ...]:
         """Place (u, v) in its cell, 0 … 1, height of the cell's plane at (0, 0), its gains over u and v."""
@@ -110,6 +110,12 @@ class HeightField(Surface):
         )
 
 
+def smooth_step(t: np.ndarray) -> np.ndarray:
+    """From 0 to 1 with no slope at either end; constant outside."""
+    t = np.clip(t, 0.0, 1.0)
+    return t * t * (3.0 - 2.0 * t)
+
+
 def sampled(surface: Surface, bounds: tuple[float, float, float, float], spacing: float) -> HeightField:
     """Any surface as a height field over `bounds` (x_min, y_min, x_max, y_max) [m]."""
     x_min, y_min, x_max, y_max = bounds
@@ -118,9 +124,53 @@ def sampled(surface: Surface, bounds: tuple[float, float, float, float], spacing
     return HeightField(x_min, y_min, spacing, np.asarray(surface.height(x[None, :], y[:, None])))
 
 
+class Solid(ABC):
+    """What stands on the ground without overhangs: an outline, and a height for every place within it."""
+
+    height: float
+    """From what it stands on to its highest point [m]."""
+    base: float
+    """What it stands on, above the surface under its centre [m]; not zero when it lies on another solid."""
+
+    @property
+    @abstractmethod
+    def centre(self) -> tuple[float, float]:
+        """The place whose ground it stands on [m]."""
+
+    @abstractmethod
+    def corners(self) -> Float[np.ndarray, "corners 2"]:
+        """Corners of its outline, anticlockwise, world [m]."""
+
+    @abstractmethod
+    def tops(self) -> tuple[Float[np.ndarray, "_ 3"], ...]:
+        """The convex pieces of its top, anticlockwise from above: world x, y, height over its base [m]."""
+
+    @abstractmethod
+    def row(self, level: float) -> tuple[float, ...]:
+        """Its numbers as kernels read them (`relief`), standing on a `level` [m]."""
+
+    def rises(self, step: float) -> bool:
+        """Whether it rises by more than `step` [m] within the same distance: then it cannot be stepped on."""
+        return self.height > step
+
+    @property
+    def reach(self) -> float:
+        """Radius of the circle around its centre that holds its outline [m]."""
+        return float(np.linalg.norm(self.corners() - self.centre, axis=1).max())
+
+    def extent(self) -> tuple[float, float, float, float]:
+        """x_min, y_min, x_max, y_max of the places where it may be the ground [m]."""
+        (x_min, y_min), (x_max, y_max) = self.corners().min(axis=0), self.corners().max(axis=0)
+        return float(x_min), float(y_min), float(x_max), float(y_max)
+
+
+BOX, CYLINDER, PYRAMID, WEDGE, SPHERE, PRISM = map(float, range(6))
+"""Kinds of solids, as the first number of their rows."""
+
+
 @final
 @dataclass(frozen=True)
-class Box:
+class Box(Solid):
     """A block with vertical sides and a level top. Low ones are stepped on, high ones walked around."""
 
     x: float
@@ -144,17 +194,45 @@ class Box:
 
     def corners(self) -> Float[np.ndarray, "4 2"]:
         """Corners of its outline, anticlockwise, world [m]."""
-        c, s = math.cos(self.yaw), math.sin(self.yaw)
-        half = np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]]) * (self.lx / 2, self.ly / 2)
-        return half @ np.array([[c, s], [-s, c]]) + (self.x, self.y)
+        return rectangle(self.x, self.y, self.yaw, self.lx, self.ly)
+
+    @property
+    def centre(self) -> tuple[float, float]:
+        return self.x, self.y
 
     @property
     def radius(self) -> float:
         """Radius of the circle around its outline [m]."""
         return math.hypot(self.lx, self.ly) / 2
 
+    def tops(self) -> tuple[Float[np.ndarray, "_ 3"], ...]:
+        return (lifted(self.corners(), self.height),)
 
-def _upward(slope_x: Number, slope_y: Number) -> Float[np.ndarray, "... 3"]:
+    def extent(self) -> tuple[float, float, float, float]:
+        c, s = abs(math.cos(self.yaw)), abs(math.sin(self.yaw))
+        x, y = (c * self.lx + s * self.ly) / 2, (s * self.lx + c * self.ly) / 2
+        return self.x - x, self.y - y, self.x + x, self.y + y
+
+    def row(self, level: float) -> tuple[float, ...]:
+        turn = float(np.cos(self.yaw)), float(np.sin(self.yaw))
+        return (BOX, self.x, self.y, *turn, self.lx / 2, self.ly / 2, level + self.height, 0.0, 0.0)
+
+
+def rectangle(x: float, y: float, yaw: float, lx: float, ly: float) -> Float[np.ndarray, "4 2"]:
+    """Corners of a rectangle around a centre, anticlockwise [m]; `yaw`: direction of the side `lx` [rad]."""
+    c, s = math.cos(yaw), math.sin(yaw)
+    half = np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]]) * (lx / 2, ly / 2)
+    return half @ np.array([[c, s], [-s, c]]) + (x, y)
+
+
+def lifted(
+    places: Float[np.ndarray, "n 2"], height: Float[np.ndarray, "n"] | float
+) -> Float[np.ndarray, "n 3"]:
+    """Places with a height."""
+    return np.column_stack([places, np.broadcast_to(height, len(places))])
+
+
+def upward(slope_x: Number, slope_y: Number) -> Float[np.ndarray, "... 3"]:
     """Unit normal of ground that rises by `slope_x`, `slope_y` metres per metre along x and y."""
     slope_x, slope_y = np.broadcast_arrays(slope_x, slope_y)
     normal = np.stack([-slope_x, -slope_y, np.ones_like(slope_x, dtype=float)], axis=-1)

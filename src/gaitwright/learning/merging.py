@@ -8,6 +8,7 @@ from gaitwright.errors import WrongUse
 from gaitwright.knowledge.memory import Action, said_of
 from gaitwright.knowledge.told import Told
 from gaitwright.knowledge.trust import History
+from gaitwright.learning.map_books import maps_of_both
 from gaitwright.learning.notes import pupil_of, with_steps
 from gaitwright.learning.older_books import told_by
 from gaitwright.learning.skill_pupil import SkillPupil
@@ -51,17 +52,18 @@ def merge(ours: Skillbook, theirs: Skillbook, base: Skillbook | None = None) -> 
     then and does by itself, the joined book does too, or a conflict says what it does instead. `base` is the
     book that both come from; it is found without being named, and checked where it is. Of each skill the
     torque profiles are ours, or theirs where ours has none; what was lived through with them comes with
-    them, from both where both have the same. Their terrain operators of other names come behind ours. Raises
-    `WrongUse` where `base` is no such book, or for a book whose rules rest on no lessons that can be told.
+    them, from both where both have the same. Their terrain operators of other names come behind ours. Of a
+    place of which both have a map the joined book knows what either does. Raises `WrongUse` where `base` is
+    no such book, or for a book whose rules rest on no lessons that can be told.
     """
     merged = told_both(ours, theirs, base)
     profiles, trust = profiles_of_both(ours, theirs), trust_of_both(ours, theirs)
-    operators = operators_of_both(ours, theirs)
-    if (profiles, trust, operators) == (ours.profiles, ours.trust, ours.operators):
+    operators, maps = operators_of_both(ours, theirs), maps_of_both(ours.maps, theirs.maps)
+    news = {"profiles": profiles, "trust": trust, "operators": operators, "maps": maps}
+    if all(some == getattr(ours, what) for what, some in news.items()):
         return merged
     ancestors = with_ancestor(merged.book.ancestors, theirs)
-    book = replace(merged.book, profiles=profiles, trust=trust, operators=operators, ancestors=ancestors)
-    return replace(merged, book=book)
+    return replace(merged, book=replace(merged.book, **news, ancestors=ancestors))
 
 
 def told_both(ours: Skillbook, theirs: Skillbook, base: Skillbook | None) -> Merged:

@@ -33,9 +33,14 @@ class Navigator:
     robot: Robot
 
     def set_out(
-        self, mission: Mission, sensed: Sensed, ground: GroundMap, scan: Scan | None = None
+        self,
+        mission: Mission,
+        sensed: Sensed,
+        ground: GroundMap,
+        scan: Scan | None = None,
+        memory: Travelled | None = None,
     ) -> tuple[Route, Travelled]:
-        """The route of a new mission; `no_way` says so where there is none."""
+        """The route of a new mission; `no_way` says so where there is none. What was before is forgotten."""
         here, view = place(sensed), self.view(ground)
         path: list[tuple[float, float]] = []
         for point in mission.waypoints:

@@ -1,10 +1,11 @@
 """Perception of a robot that nobody tells where it is: it knows its start, and goes by its own sensors."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
+from gaitwright.ground.scene import Scene
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY
 from gaitwright.numerics.packing import Row
@@ -35,6 +36,10 @@ class EstimatedState:
         out = np.empty_like(measured.row)
         estimate(self.robot.packed, measured.row, measured.specific_force_b, self.dt, memory, out)
         return Sensed.of_row(out, time=measured.time), self.known.ground, memory
+
+    def told(self, scene: Scene, robot: Robot) -> "EstimatedState":
+        """The same of a world that was arranged anew: it is told."""
+        return replace(self, known=self.known.told(scene, robot))
 
     def look(self, ground: GroundMap, sensed: Sensed) -> Scan | None:
         """The ground ahead, from where it believes to be."""

@@ -27,6 +27,10 @@ class KnownGround:
         """`sees`: whether feet know the ground ahead, so that it is scanned and higher steps are climbed."""
         return cls(map_of(scene, robot, sees), Scanner.of(robot))
 
+    def told(self, scene: Scene, robot: Robot) -> "KnownGround":
+        """The same of a world that was arranged anew: it is told."""
+        return KnownGround.of(scene, robot, self.ground.elevation is not None)
+
     def perceive(self, measured: Measured, memory: None) -> tuple[Sensed, GroundMap, None]:
         """The state as the plant has it, and the whole map."""
         return measured, self.ground, None

@@ -43,7 +43,10 @@ class Scanner:
             return None
         h = self.height
         along = np.concatenate([np.arange(BEHIND, FAR, SPACING), np.arange(FAR, SEES, 2 * SPACING)]) * h
-        seen, obstacle = in_sight(along, self.heights(ground.elevation, place, yaw, along), ground.step)
+        known = self.heights(ground.elevation, place, yaw, along)
+        if np.isnan(known).all():
+            return None
+        seen, obstacle = in_sight(along, carried_on(known), ground.step)
         road = along < FAR * h - 1e-9
         along, seen = along[road], seen[:, road]
         gap = widest_gap(along, seen.min(axis=0), DEEP * h)
@@ -71,6 +74,22 @@ class Scanner:
         x = place[0] + math.cos(yaw) * along - math.sin(yaw) * beside
         y = place[1] + math.sin(yaw) * along + math.cos(yaw) * beside
         return np.array(elevation.height(x, y), dtype=float)
+
+
+def carried_on(heights: Float[np.ndarray, "lanes n"]) -> Float[np.ndarray, "lanes n"]:
+    """Ground that is not known (NaN) goes on as the known ground before it, or comes as the first behind it.
+
+    A lane of which nothing is known is as the mean of the others.
+    """
+    unknown = np.isnan(heights)
+    if not unknown.any():
+        return heights
+    known = ~unknown.all(axis=1)
+    last = np.maximum.accumulate(np.where(unknown, -1, np.arange(heights.shape[1])), axis=1)
+    first = unknown.argmin(axis=1)[:, None]
+    out = np.take_along_axis(heights, np.where(last < 0, first, last), axis=1)
+    out[~known] = out[known].mean(axis=0)
+    return out
 
 
 def in_sight(

@@ -10,9 +10,11 @@ from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon, Rectangle
 
+from gaitwright.ground.holes import filled
 from gaitwright.ground.scene import Scene
 from gaitwright.model.kinematics import feet
 from gaitwright.numerics.geometry import rotation
+from gaitwright.pictures.ground import HIGH, LOW_EDGE, PIT, draw_things
 from gaitwright.pictures.style import EARTH, INK, MAP, SKILLS, dress
 from gaitwright.pictures.thin import shown
 from gaitwright.record.metrics import heading_over_time, stretches, touchdowns
@@ -51,10 +53,12 @@ def draw_map(ax: Axes, r: Recording, scene: Scene) -> None:
         Line2D([], [], marker="*" if r.arrived else "X", markersize=14, label=done, **marker),
         Line2D([], [], marker=".", color="none", markerfacecolor=INK, markeredgewidth=0, label="footfalls"),
     ]
-    if scene.boxes:
-        handles.append(Patch(facecolor="#d9c9a8", edgecolor="#a8946c", label="low: stepped on"))
+    if scene.solids:
+        handles.append(Patch(facecolor="#d9c9a8", edgecolor=LOW_EDGE, label="low: stepped on"))
+    if scene.holes:
+        handles.append(Patch(facecolor=PIT, label="hole"))
     if scene.obstacles(r.robot.step_limit):
-        handles.append(Patch(facecolor="#c9ced6", edgecolor=INK, hatch="////", label="high: walked around"))
+        handles.append(Patch(**HIGH, label="high: walked around"))
     ax.legend(
         handles=handles, loc="upper left", ncols=len(handles), frameon=True, framealpha=0.92, edgecolor="none"
     )
@@ -74,7 +78,8 @@ def draw_ground(ax: Axes, r: Recording, scene: Scene, bounds: tuple[float, float
     ax.set_facecolor("#f4f1ea")
     extent = (bounds[0], bounds[2], bounds[1], bounds[3])
     x, y = np.linspace(*extent[:2], 600), np.linspace(*extent[2:], 300)
-    height = np.asarray(scene.surface.height(x[None, :], y[:, None]))
+    level = filled(scene.surface, scene.holes)  # holes are drawn by their outlines
+    height = np.asarray(level.height(x[None, :], y[:, None]))
     if np.ptp(height) > 1e-6:
         image = ax.imshow(height, extent=extent, origin="lower", cmap=EARTH, interpolation="bilinear")
         bar = ax.figure.colorbar(image, cax=ax.inset_axes((0.975, 0.06, 0.008, 0.8)))
@@ -85,15 +90,7 @@ def draw_ground(ax: Axes, r: Recording, scene: Scene, bounds: tuple[float, float
         bar.ax.set_title("z [m]", fontsize=9, color=INK)
         bar.ax.tick_params(labelsize=9, colors=INK, length=2)
         bar.outline.set_visible(False)
-    obstacles = set(scene.obstacles(r.robot.step_limit))
-    tallest = max((scene.top(box) for box in scene.boxes if box not in obstacles), default=1.0)
-    for box in scene.boxes:
-        if box in obstacles:
-            style = {"facecolor": "#c9ced6", "edgecolor": INK, "hatch": "////", "linewidth": 1.0}
-        else:
-            shade = 0.25 + 0.55 * max(scene.top(box), 0.0) / max(tallest, 1e-9)
-            style = {"facecolor": (0.72, 0.60, 0.36, shade), "edgecolor": "#a8946c", "linewidth": 0.8}
-        ax.add_patch(Polygon(box.corners(), zorder=2, **style))
+    draw_things(ax, scene, scene.obstacles(r.robot.step_limit))
 
 
 def draw_footprints(ax: Axes, r: Recording) -> None:

@@ -8,10 +8,14 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float
+import shapely
+from jaxtyping import Float, Int
 
+from gaitwright.ground.holes import Pitted
+from gaitwright.ground.outlines import convex_parts
 from gaitwright.ground.scene import Scene
-from gaitwright.ground.terrain import Box, Flat, HeightField, Slope, sampled
+from gaitwright.ground.solids import Sphere
+from gaitwright.ground.terrain import Box, Flat, HeightField, Slope, Solid, lifted, sampled
 from gaitwright.numerics.geometry import yaw_quaternion
 
 MOST_NODES = 160_000
@@ -23,10 +27,16 @@ GROUND, BOX, WAY = (0.62, 0.63, 0.60, 1.0), (0.80, 0.62, 0.38, 1.0), (0.13, 0.47
 
 
 def scene_update(scene: Scene, seconds: float) -> dict[str, Any]:
-    """Ground and boxes of a scene, there from a time on [s]."""
-    boxes = [cube(scene, box) for box in scene.boxes]
+    """Ground, boxes and other shapes of a scene, there from a time on [s]."""
+    boxes = [cube(scene, solid) for solid in scene.solids if isinstance(solid, Box)]
+    balls = [ball(scene, solid) for solid in scene.shapes if isinstance(solid, Sphere)]
+    others = [hull(scene, solid) for solid in scene.shapes if not isinstance(solid, Box | Sphere)]
     entities = [entity("ground", seconds, triangles=[ground(scene)])]
-    return update(entities + ([entity("boxes", seconds, cubes=boxes)] if boxes else []))
+    if boxes:
+        entities.append(entity("boxes", seconds, cubes=boxes))
+    if balls or others:
+        entities.append(entity("shapes", seconds, spheres=balls, triangles=others))
+    return update(entities)
 
 
 def way_update(scene: Scene, points: Sequence[tuple[float, float]], seconds: float) -> dict[str, Any]:
@@ -40,20 +50,82 @@ def way_update(scene: Scene, points: Sequence[tuple[float, float]], seconds: flo
 
 def ground(scene: Scene) -> dict[str, Any]:
     """The surface: two triangles for each cell of its grid, the very ones that feet meet unless thinned."""
+    if isinstance(scene.surface, Pitted):
+        return pitted(scene.surface, scene.bounds)
     x, y, z = grid(scene)
     rows, columns = z.shape
     first = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
     last = first + columns + 1
     corners = np.column_stack([first, first + 1, last, first, last, first + columns])
     across, along = np.meshgrid(x, y)
-    nodes = np.column_stack([across.ravel(), along.ravel(), z.ravel()]).round(4).tolist()  # 0.1 mm
+    return mesh(np.column_stack([across.ravel(), along.ravel(), z.ravel()]), corners.reshape(-1, 3), GROUND)
+
+
+def pitted(surface: Pitted, bounds: tuple[float, float, float, float]) -> dict[str, Any]:
+    """A plane with holes: its level parts, their walls and their floors."""
+    left: shapely.Geometry = shapely.box(*bounds)
+    faces: list[Float[np.ndarray, "_ 3"]] = []
+    for hole in sorted(surface.holes, key=lambda hole: -hole.depth):
+        floor = shapely.intersection(shapely.Polygon(hole.outline), left)
+        left = shapely.difference(left, floor)
+        for part in convex_parts(floor):
+            faces.append(lifted(part, np.asarray(surface.plane.height(*part.T)) - hole.depth))
+        rim = np.array(hole.outline)[::-1]  # seen from within
+        height = np.asarray(surface.plane.height(*rim.T))
+        faces += walls(lifted(rim, height), height - hole.depth)
+    for part in convex_parts(left):
+        faces.append(lifted(part, np.asarray(surface.plane.height(*part.T))))
+    return mesh(*fans(faces), GROUND)
+
+
+def hull(scene: Scene, solid: Solid) -> dict[str, Any]:
+    """A solid's top and sides, which go down below the ground that is not level."""
+    level = scene.level(solid)
+    depth = 0.0 if isinstance(scene.surface, Flat) else 2.0 * solid.reach
+    faces: list[Float[np.ndarray, "_ 3"]] = []
+    for top in solid.tops():
+        placed = top + np.array([0.0, 0.0, level])
+        faces += [placed, *walls(placed, level - depth)]
+    return mesh(*fans(faces), BOX)
+
+
+def walls(
+    top: Float[np.ndarray, "corners 3"], below: Float[np.ndarray, "corners"] | float
+) -> list[Float[np.ndarray, "4 3"]]:
+    """What stands below the edges of a face, down to heights [m]."""
+    low = lifted(top[:, :2], below)
+    return [np.array([low[k - 1], low[k], top[k], top[k - 1]]) for k in range(len(top))]
+
+
+def fans(faces: list[Float[np.ndarray, "_ 3"]]) -> tuple[np.ndarray, np.ndarray]:
+    """Convex faces as triangles: the places of their corners, and the corners of each triangle."""
+    first = np.cumsum([0, *(len(face) for face in faces)])
+    corners = [
+        (start, start + k, start + k + 1)
+        for start, face in zip(first, faces, strict=False)
+        for k in range(1, len(face) - 1)
+    ]
+    return np.concatenate(faces), np.array(corners)
+
+
+def mesh(
+    nodes: Float[np.ndarray, "n 3"], corners: Int[np.ndarray, "triangles 3"], rgba: tuple
+) -> dict[str, Any]:
+    """Triangles between places, to 0.1 mm."""
     return {
         "pose": pose(),
-        "points": [point(*node) for node in nodes],
-        "color": colour(GROUND),
+        "points": [point(*node) for node in nodes.round(4).tolist()],
+        "color": colour(rgba),
         "colors": [],
         "indices": corners.ravel().tolist(),
     }
+
+
+def ball(scene: Scene, sphere: Sphere) -> dict[str, Any]:
+    """A sphere, as far in the ground as it is."""
+    centre = point(sphere.x, sphere.y, scene.top(sphere) - sphere.radius)
+    size = 2.0 * sphere.radius
+    return {"pose": pose(centre), "size": point(size, size, size), "color": colour(BOX)}
 
 
 def grid(scene: Scene) -> tuple[Float[np.ndarray, " columns"], Float[np.ndarray, " rows"], np.ndarray]:

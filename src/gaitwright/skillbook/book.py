@@ -16,6 +16,7 @@ from gaitwright.skillbook.entries import (
     ancestor_entry,
     ancestors_of,
     checked,
+    map_entries,
     operator_entries,
     profile_entries,
     rulebook_entry,
@@ -25,6 +26,8 @@ from gaitwright.skillbook.entries import (
     trust_entries,
 )
 from gaitwright.skillbook.history import Ancestor, Step, all_told, forgotten
+from gaitwright.skillbook.map_notes import MapNotes
+from gaitwright.skillbook.map_notes import fault_in as fault_in_maps
 from gaitwright.skillbook.operator_notes import OperatorNotes
 from gaitwright.skillbook.operator_notes import fault_in as fault_in_operators
 from gaitwright.skillbook.profile_notes import ProfileNotes, fault_in
@@ -53,6 +56,8 @@ class Skillbook:
     """What the learned controller went through with each skill, in order."""
     operators: tuple[OperatorNotes, ...] = ()
     """Terrain operators, in the order in which they are tried."""
+    maps: tuple[MapNotes, ...] = ()
+    """What was learned of places, in the order of their names."""
 
     @staticmethod
     def new(start: Forest | Rulebook, robot: str = "", name: str = "", seed: int = 0) -> "Skillbook":
@@ -97,8 +102,8 @@ def entry_of(book: Skillbook) -> File:
     steps = tuple(step_entry(step) for step in book.steps)
     ancestors = tuple(ancestor_entry(a) for a in book.ancestors)
     profiles, trust = profile_entries(book.profiles), trust_entries(book.trust)
-    operators = operator_entries(book.operators)
-    return File(about_of(book), rulebook, steps, ancestors, book.pupil, profiles, trust, operators)
+    operators, maps = operator_entries(book.operators), map_entries(book.maps)
+    return File(about_of(book), rulebook, steps, ancestors, book.pupil, profiles, trust, operators, maps)
 
 
 def about_of(book: Skillbook) -> About:
@@ -107,7 +112,7 @@ def about_of(book: Skillbook) -> About:
     counts = (len(book.steps), len(rules.rules), len(rules.preferences), len(rules.forest.trees))
     own = (book.name, book.robot, book.made_by, book.seed, rules.lessons)
     others = len(book.ancestors), int(book.pupil is not None), len(book.profiles), len(book.trust)
-    return checked(About(*own, *counts, *others, len(book.operators)), About)
+    return checked(About(*own, *counts, *others, len(book.operators), len(book.maps)), About)
 
 
 def book_of(entry: File, source: str) -> Skillbook:
@@ -117,8 +122,9 @@ def book_of(entry: File, source: str) -> Skillbook:
     about, ancestors = entry.about, ancestors_of(entry.ancestors)
     check_notes(entry.pupil, steps, source)
     check_profiles(entry, source)
-    own = (about.made_by, about.seed, ancestors, entry.pupil, entry.profiles, entry.trust, entry.operators)
-    return Skillbook(about.name, about.robot, rulebook, steps, *own)
+    own = (about.made_by, about.seed, ancestors, entry.pupil)
+    learned = (entry.profiles, entry.trust, entry.operators, entry.maps)
+    return Skillbook(about.name, about.robot, rulebook, steps, *own, *learned)
 
 
 def check_notes(notes: PupilNotes | None, steps: tuple[Step, ...], source: str) -> None:
@@ -135,9 +141,10 @@ def check_notes(notes: PupilNotes | None, steps: tuple[Step, ...], source: str) 
 
 
 def check_profiles(entry: File, source: str) -> None:
-    """Raises `BadFile` where one of a book's profiles or operators is damaged, or stands in it twice, or the
-    history of trust makes no sense."""
-    fault = fault_in(entry.profiles) or fault_in_history(entry.trust) or fault_in_operators(entry.operators)
+    """Raises `BadFile` where one of a book's profiles, operators or maps is damaged or stands in it twice, or
+    the history of trust makes no sense."""
+    fault = fault_in(entry.profiles) or fault_in_history(entry.trust)
+    fault = fault or fault_in_operators(entry.operators) or fault_in_maps(entry.maps)
     if fault:
         raise BadFile(f"{source}: {fault}")
 

@@ -29,6 +29,8 @@ from gaitwright.knowledge.rules import Event, Rulebook
 from gaitwright.knowledge.told import Given, Told
 from gaitwright.knowledge.trust import Experience, History, fault_in_history
 from gaitwright.skillbook.history import Ancestor, How, Step
+from gaitwright.skillbook.map_notes import MapNotes, place_of
+from gaitwright.skillbook.map_notes import fault_in as fault_in_maps
 from gaitwright.skillbook.operator_notes import OperatorNotes
 from gaitwright.skillbook.operator_notes import fault_in as fault_in_operators
 from gaitwright.skillbook.profile_notes import ProfileNotes, fault_in, name_of
@@ -56,6 +58,7 @@ class About(Strict, frozen=True):
     profiles: Place = 0
     trust: Place = 0
     operators: Place = 0
+    maps: Place = 0
 
 
 class AncestorEntry(Strict, frozen=True):
@@ -128,6 +131,8 @@ class File(Strict, frozen=True):
     trust: History = ()
     operators: tuple[OperatorNotes, ...] = ()
     """In the order in which they are tried."""
+    maps: tuple[MapNotes, ...] = ()
+    """In the order of their places."""
 
 
 ENCODER = msgspec.json.Encoder(order="deterministic")
@@ -197,6 +202,15 @@ def operator_entries(operators: Iterable[OperatorNotes]) -> tuple[OperatorNotes,
     """Terrain operators, checked against the limits of a file."""
     entries = tuple(checked(operator, OperatorNotes) for operator in operators)
     fault = fault_in_operators(entries)
+    if fault:
+        raise WrongUse(f"a skillbook cannot hold this: {fault}")
+    return entries
+
+
+def map_entries(maps: Iterable[MapNotes]) -> tuple[MapNotes, ...]:
+    """Learned maps in the order of their places, checked against the limits of a file."""
+    entries = tuple(sorted((checked(notes, MapNotes) for notes in maps), key=place_of))
+    fault = fault_in_maps(entries)
     if fault:
         raise WrongUse(f"a skillbook cannot hold this: {fault}")
     return entries

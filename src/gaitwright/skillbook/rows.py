@@ -5,7 +5,7 @@ the counts in the book's own row for rows that are gone.
 """
 
 import sqlite3
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from hashlib import blake2b
 from itertools import groupby
@@ -27,6 +27,7 @@ from gaitwright.skillbook.entries import (
     encoded,
     rulebook_entry,
 )
+from gaitwright.skillbook.map_notes import MapNotes, place_of
 from gaitwright.skillbook.operator_notes import OperatorNotes
 from gaitwright.skillbook.profile_notes import ProfileNotes, name_of
 from gaitwright.skillbook.pupil_notes import PupilNotes
@@ -44,6 +45,7 @@ KEYS = {
     "profiles": ("name",),
     "trust": ("place",),
     "operators": ("place",),
+    "maps": ("place",),
 }
 """The key columns of each table, in an order in which rows can be written."""
 
@@ -131,6 +133,11 @@ def profile_rows(profiles: Iterable[ProfileNotes]) -> Rows:
     return {("profiles", (name_of(profile),)): encoded(profile) for profile in profiles}
 
 
+def map_rows(maps: Iterable[MapNotes]) -> Rows:
+    """The rows of learned maps."""
+    return {("maps", (place_of(notes),)): encoded(notes) for notes in maps}
+
+
 def change_profiles(
     db: sqlite3.Connection, before: Sequence[ProfileNotes], after: Sequence[ProfileNotes]
 ) -> None:
@@ -140,6 +147,15 @@ def change_profiles(
     was, now = ({name_of(profile): profile for profile in some} for some in (before, after))
     remove(db, [("profiles", (name,)) for name in was.keys() - now.keys()])
     put(db, profile_rows(profile for name, profile in now.items() if was.get(name) != profile))
+
+
+def change_maps(db: sqlite3.Connection, before: Sequence[MapNotes], after: Sequence[MapNotes]) -> None:
+    """Writes what differs between the maps of two books."""
+    if before is after:
+        return
+    was, now = ({place_of(notes): notes for notes in some} for some in (before, after))
+    remove(db, [("maps", (place,)) for place in was.keys() - now.keys()])
+    put(db, map_rows(notes for place, notes in now.items() if was.get(place) != notes))
 
 
 def trust_rows(history: Iterable[Experience], first: int = 0) -> Rows:
@@ -183,11 +199,14 @@ def read(db: sqlite3.Connection, source: str) -> File:
     rules = _rules(db, about, source)
     notes = _row_of(_read(db, "pupil", PupilNotes, source), about.pupil, "pupils", source)
     rulebook = BookEntry(FORMAT, trees, rules, wishes, events, about.lessons)
-    profiles = _profiles(_read(db, "profiles", ProfileNotes, source), about.profiles, source)
+    profiles = _named(
+        _read(db, "profiles", ProfileNotes, source), name_of, about.profiles, "profiles", source
+    )
+    maps = _named(_read(db, "maps", MapNotes, source), place_of, about.maps, "maps", source)
     trust = _row_of(_read(db, "trust", Experience, source), about.trust, "entries of trust", source)
     operators = _row_of(_read(db, "operators", OperatorNotes, source), about.operators, "operators", source)
     pupil = notes[0] if notes else None
-    return File(about, rulebook, steps, ancestors, pupil, profiles, trust, operators)
+    return File(about, rulebook, steps, ancestors, pupil, profiles, trust, operators, maps)
 
 
 def _read(db: sqlite3.Connection, table: str, kind: type[T], source: str) -> dict[tuple, T]:
@@ -211,10 +230,12 @@ def _row_of(found: Mapping[tuple, T], count: int, what: str, source: str) -> tup
     return tuple(found.values())
 
 
-def _profiles(found: Mapping[tuple, ProfileNotes], count: int, source: str) -> tuple[ProfileNotes, ...]:
-    """Profiles under their own names, none missing."""
-    if len(found) != count or any(name != name_of(profile) for (name,), profile in found.items()):
-        raise BadFile(f"{source} is damaged: of {count} profiles it has {len(found)}, or under other names")
+def _named(
+    found: Mapping[tuple, T], name: Callable[[T], str], count: int, what: str, source: str
+) -> tuple[T, ...]:
+    """Entries under their own names, none missing."""
+    if len(found) != count or any(key != (name(entry),) for key, entry in found.items()):
+        raise BadFile(f"{source} is damaged: of {count} {what} it has {len(found)}, or under other names")
     return tuple(found.values())
 
 

@@ -53,7 +53,12 @@ CREATE TABLE operators (place INTEGER NOT NULL PRIMARY KEY,
     content TEXT NOT NULL, seal BLOB NOT NULL) STRICT;
 """
 
-MIGRATIONS: tuple[str, ...] = (FIRST, PUPIL, PROFILES, TRUST, OPERATORS)
+MAPS = """
+CREATE TABLE maps (place TEXT NOT NULL PRIMARY KEY,
+    content TEXT NOT NULL, seal BLOB NOT NULL) STRICT, WITHOUT ROWID;
+"""
+
+MIGRATIONS: tuple[str, ...] = (FIRST, PUPIL, PROFILES, TRUST, OPERATORS, MAPS)
 """What makes each version from the one before. Books of every version load forever: only ever append."""
 
 LIMITS = {

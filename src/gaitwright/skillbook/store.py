@@ -58,7 +58,7 @@ def file_rows(entry: File) -> rows.Rows:
     if entry.pupil is not None:
         found["pupil", (0,)] = encoded(entry.pupil)
     found |= rows.profile_rows(entry.profiles) | rows.trust_rows(entry.trust)
-    found |= rows.operator_rows(entry.operators)
+    found |= rows.operator_rows(entry.operators) | rows.map_rows(entry.maps)
     found |= rows.book_rows(entry.rulebook, range(len(entry.rulebook.rules)))
     start = 0
     for place, step in enumerate(entry.steps):

@@ -40,6 +40,7 @@ from gaitwright.skillbook.entries import (
     encoded,
 )
 from gaitwright.skillbook.history import How
+from gaitwright.skillbook.map_notes import MapNotes, place_of
 from gaitwright.skillbook.operator_notes import OperatorNotes
 from gaitwright.skillbook.profile_notes import ProfileNotes, name_of
 from gaitwright.skillbook.pupil_notes import PupilNotes
@@ -105,6 +106,7 @@ KINDS: dict[str, type] = {
     "profile": ProfileNotes,
     "trust": Experience,
     "operator": OperatorNotes,
+    "map": MapNotes,
 }
 
 
@@ -140,6 +142,8 @@ def _lines(entry: File) -> Iterator[tuple[str, Any]]:
         yield "trust", experience
     for operator in entry.operators:
         yield "operator", operator
+    for notes in entry.maps:
+        yield "map", notes
 
 
 def _rule_lines(rule: RuleEntry, trees: list[str]) -> Iterator[tuple[str, Any]]:
@@ -177,6 +181,7 @@ class Draft:
     profiles: list[ProfileNotes] = field(default_factory=list)
     trust: list[Experience] = field(default_factory=list)
     operators: list[OperatorNotes] = field(default_factory=list)
+    maps: list[MapNotes] = field(default_factory=list)
 
 
 def read(content: str, source: str) -> File:
@@ -238,6 +243,7 @@ def _take(draft: Draft, line: str) -> None:
             "profile": draft.profiles,
             "trust": draft.trust,
             "operator": draft.operators,
+            "map": draft.maps,
         }
         lists[word].append(value)
 
@@ -248,7 +254,7 @@ def _file(draft: Draft, source: str) -> File:
     if b is None:
         raise BadFile(f"{source} does not say what book it is: a line 'book' is missing")
     trees, wishes, ancestors = tuple(draft.trees), tuple(draft.wishes), tuple(draft.ancestors)
-    profiles = tuple(sorted(draft.profiles, key=name_of))
+    profiles, maps = tuple(sorted(draft.profiles, key=name_of)), tuple(sorted(draft.maps, key=place_of))
     names = [tree.name for tree in trees]
     rules = tuple(_rule(rule, names, source) for rule in draft.rules.values())
     steps = tuple(
@@ -256,20 +262,13 @@ def _file(draft: Draft, source: str) -> File:
         for step, events in draft.steps
     )
     events = tuple(event for _, moved in draft.steps for event in moved)
-    counts = (
-        len(steps),
-        len(rules),
-        len(wishes),
-        len(trees),
-        len(ancestors),
-        len(draft.pupils),
-        len(profiles),
-        len(draft.trust),
-        len(draft.operators),
+    pupil, more = (
+        draft.pupils[0] if draft.pupils else None,
+        (tuple(draft.trust), tuple(draft.operators), maps),
     )
-    about = About(b.name, b.robot, b.made_by, b.seed, b.lessons, *counts)
+    counted = (steps, rules, wishes, trees, ancestors, draft.pupils, profiles, *more)
+    about = About(b.name, b.robot, b.made_by, b.seed, b.lessons, *map(len, counted))
     rulebook = BookEntry(FORMAT, trees, rules, wishes, events, b.lessons)
-    pupil, more = draft.pupils[0] if draft.pupils else None, (tuple(draft.trust), tuple(draft.operators))
     return File(about, rulebook, steps, ancestors, pupil, profiles, *more)
 
 

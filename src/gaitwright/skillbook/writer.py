@@ -17,12 +17,14 @@ from gaitwright.skillbook.entries import (
     checked,
     encoded,
     event_entries,
+    map_entries,
     operator_entries,
     profile_entries,
     step_entry,
     trust_entries,
 )
 from gaitwright.skillbook.history import Step, forgotten, names_told
+from gaitwright.skillbook.map_notes import MapNotes
 from gaitwright.skillbook.operator_notes import OperatorNotes
 from gaitwright.skillbook.profile_notes import ProfileNotes
 from gaitwright.skillbook.pupil_notes import PupilNotes
@@ -97,6 +99,12 @@ class Ledger:
         tried. Raises `WrongUse` where no file can hold them."""
         return self._store(replace(self.book, operators=operator_entries(operators)), {})
 
+    def keep_map(self, notes: MapNotes) -> Skillbook:
+        """Stores a learned map in place of the one of its place. Raises `WrongUse` where no file can hold
+        it."""
+        others = (other for other in self.book.maps if other.place != notes.place)
+        return self._store(replace(self.book, maps=map_entries((*others, notes))), {})
+
     def _moved(self, events: tuple[Event, ...], lessons: int = 0) -> Rulebook:
         """The rules as they are in the file, with more events and lessons behind them."""
         now = self.book.rulebook
@@ -134,6 +142,7 @@ class Ledger:
                 rows.change(self._db, self.book.rulebook, book.rulebook)
                 rows.change_profiles(self._db, self.book.profiles, book.profiles)
                 rows.change_operators(self._db, self.book.operators, book.operators)
+                rows.change_maps(self._db, self.book.maps, book.maps)
                 rows.put(self._db, added)
                 self._db.execute("COMMIT")
             except BaseException:  # an interrupt too: what was not acknowledged must not be half there

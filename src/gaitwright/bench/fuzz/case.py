@@ -40,6 +40,7 @@ def prepared(folder: Path) -> None:
         "sound.npz": originals.recordings,
         "sound.json": originals.scenes,
         "sound.xml": originals.mjcfs,
+        "sound.png": originals.height_maps,
     }
     for name, made in files.items():
         (folder / name).write_bytes(made()[0])

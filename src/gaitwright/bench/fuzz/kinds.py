@@ -4,6 +4,7 @@ import io
 import json
 import sqlite3
 import zipfile
+import zlib
 from collections.abc import Callable
 from contextlib import closing, redirect_stderr, redirect_stdout
 from dataclasses import dataclass
@@ -30,6 +31,7 @@ from gaitwright.gait.leg_cycles.check import check_cycle
 from gaitwright.gait.leg_cycles.files import load_cycle
 from gaitwright.ground.scene import load_scene
 from gaitwright.knowledge.json_form import loads
+from gaitwright.learning.map_books import learned_map_of
 from gaitwright.learning.notes import relearned
 from gaitwright.navigation.navigator import Navigator
 from gaitwright.navigation.visibility import shortest_path
@@ -81,7 +83,11 @@ def take_robot(path: Path) -> None:
 
 
 def take_skillbook(path: Path) -> None:
-    export_text(Skillbook.load(path))
+    """Read, and its maps made of what was read."""
+    book = Skillbook.load(path)
+    export_text(book)
+    for notes in book.maps:
+        learned_map_of(notes)
 
 
 def take_text(path: Path) -> None:
@@ -128,6 +134,22 @@ def damaged_skillbook(chance: Random, content: bytes) -> bytes:
             put = {(table, tuple(key)): new}
             rows.put(db, put)
         return db.serialize()
+
+
+def damaged_png(chance: Random, content: bytes) -> bytes:
+    """Bytes changed, or numbers in a chunk under a check sum that fits."""
+    if chance.random() < 0.5:
+        return damaged_bytes(chance, content)
+    chunks, at = [], 8
+    while at < len(content):
+        size = int.from_bytes(content[at : at + 4])
+        chunks.append((content[at + 4 : at + 8], content[at + 8 : at + 8 + size]))
+        at += size + 12
+    k = chance.randrange(len(chunks))
+    name, data = chunks[k]
+    chunks[k] = name, damaged_bytes(chance, data)
+    whole = (len(d).to_bytes(4) + n + d + zlib.crc32(n + d).to_bytes(4) for n, d in chunks)
+    return content[:8] + b"".join(whole)
 
 
 def damaged_text(chance: Random, content: bytes) -> bytes:
@@ -212,6 +234,8 @@ COMMANDS: tuple[tuple[str, ...], ...] = (
     ),
     ("mission", "--seconds", "0.01", "--waypoints", "1,0.2", "2,-1", "--speed", "0.5", "--scene", "gap"),
     ("mission", "--seconds", "0.01", "--goal", "2", "0", "--driver", "hybrid", "--skillbook", "sound.skills"),
+    ("mission", "--seconds", "0.01", "--goal", "2", "0", "--sight", "camera", "--skillbook", "sound.skills"),
+    ("books", "map", "sound.skills", "a block (seed 0)"),
     ("skills", "--robot", "hexapod"),
     ("skills", "--cycle", "trot", "--robot", "go2"),
     ("scenes", "--json", "-"),
@@ -226,6 +250,7 @@ COMMANDS: tuple[tuple[str, ...], ...] = (
     ("books", "confirm", "sound.skills", "nothing"),
     ("books", "forget", "sound.skills", "nothing"),
     ("balance", "sound.json", "--forget", "left+:stop", "--out", "rest.json"),
+    ("scenes", "--plot", "nothing", "sound.json", "sound.png", "--out", "there.png"),
     ("bench", "walks", "--nothing"),
     ("reproduce", "nothing", "--out", "there"),
     ("teach", "--robot", "nothing", "--out", "new.skills", "--trips", "1"),
@@ -253,6 +278,7 @@ def damaged_line(chance: Random, content: bytes) -> bytes:
 
 KINDS = {
     "scene": Kind(".json", originals.scenes, damaged_json, take_scene),
+    "height map": Kind(".png", originals.height_maps, damaged_png, take_scene),
     "cycle": Kind(".json", originals.cycles, damaged_json, take_cycle),
     "mjcf": Kind(".xml", originals.mjcfs, damaged_xml, take_robot),
     "urdf": Kind(".urdf", originals.urdfs, damaged_xml, take_robot),

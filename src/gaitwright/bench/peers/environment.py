@@ -93,6 +93,7 @@ _POLICY = (
     "protobuf==7.36.2",
     "typing-extensions==4.16.0",
 )
+_PATHS = ("extremitypathfinder==2.8.0", "networkx==3.7", "numpy==2.5.5", "shapely==2.2.0")
 _IMPORT_TSID = "import pinocchio; from tsid import tsid_pywrap"
 _IMPORT_PLACO = "import pinocchio, placo"
 
@@ -107,6 +108,9 @@ RECIPES = {
         Recipe(python, _POLICY, "import onnx, onnxruntime") for python in ("3.13", "3.12", "3.11")
     ),
     "clips": tuple(Recipe(python, _CLIPS, "import clips") for python in ("3.13", "3.12", "3.11")),
+    "paths": tuple(
+        Recipe(python, _PATHS, "import extremitypathfinder, networkx, shapely") for python in ("3.13", "3.12")
+    ),
     "sklearn": tuple(
         Recipe(python, _SKLEARN, "import sklearn.tree, sklearn.neighbors")
         for python in ("3.13", "3.12", "3.11")

@@ -12,6 +12,7 @@ from gaitwright.bench.peers.script import Script
 TIMEOUT_S = 120.0
 SCRIPTS = {
     "clips": Path(__file__).with_name("clips_rules.py"),
+    "paths": Path(__file__).with_name("paths_planners.py"),
     "sklearn": Path(__file__).with_name("sklearn_teachers.py"),
 }
 

@@ -109,6 +109,9 @@ class ArmstrongPlant:
         """
         self.velocity = parts(self.system, self.state).v.copy()
         self.drive = self._drive(command.torques(self.measured.q, self.measured.qd), self.drive.push)
+        if self.scene.patches:
+            grip = self.scene.friction_at(self.centres[:, 0], self.centres[:, 1])
+            self.system = self.system._replace(feet=self.system.feet._replace(friction=grip))
         if self.check:
             self._compare()
         y = self.state.copy()

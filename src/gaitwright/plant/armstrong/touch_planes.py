@@ -1,9 +1,10 @@
 """Scene → the planes that feet may touch in the next control period.
 
-A kernel cannot ask a `Scene`; a plane it can.
+A kernel cannot ask a `Scene`; a plane it can. Boxes are felt from all sides; of holes and of all other shapes
+feet touch the plane of the ground below their middle.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
@@ -20,7 +21,7 @@ FLUSH = 1e-6
 
 @dataclass(frozen=True)
 class Ground:
-    """A scene's surface and its boxes, one row each."""
+    """A scene's surface, its shapes in it, and its boxes, one row each."""
 
     surface: Surface
     boxes: Float[np.ndarray, "boxes 7"]
@@ -32,7 +33,8 @@ class Ground:
         rows = [
             (b.x, b.y, scene.top(b), np.cos(b.yaw), np.sin(b.yaw), b.lx / 2, b.ly / 2) for b in scene.boxes
         ]
-        return cls(scene.surface, np.array(rows, dtype=float).reshape(-1, 7))
+        surface = replace(scene, boxes=()) if scene.shapes else scene.surface
+        return cls(surface, np.array(rows, dtype=float).reshape(-1, 7))
 
     def planes(self, centre: Float[np.ndarray, "feet 3"]) -> Float[np.ndarray, "slots 6"]:
         """Point and normal of the planes, `SLOTS` per foot, for feet with these centres."""

@@ -90,6 +90,7 @@ class MujocoWorld:
         """The physics; a stopwatch may stand before it."""
         self.addresses = tuple(Address.of(self.model, placed) for placed in robots)
         self.views = tuple(Views.of(self.data, at) for at in self.addresses)
+        self.feet = [self.model.geom(f"{p.prefix}{leg}_foot").id for p in self.robots for leg in p.robot.legs]
 
     def place(self, i: int, seed: int, vary: bool) -> None:
         """Puts robot `i` on its feet at its start, varied by `seed` where asked (`start_of`)."""
@@ -112,10 +113,18 @@ class MujocoWorld:
         """So many steps of the physics under a command for each robot."""
         for view in self.views:
             view.before[:] = view.velocity
+        if self.scene.patches:
+            self.grip()
         for _ in range(steps):
             for i, command in enumerate(commands):
                 self.tell(i, command)
             self.mj_step(self.model, self.data)
+
+    def grip(self) -> None:
+        """Gives the feet the friction of the ground below them; a foot's counts in its contacts with it."""
+        centre, radius = self.data.geom_xpos[self.feet], self.model.geom_size[self.feet, :1]
+        touched = centre - radius * self.scene.normal(centre[:, 0], centre[:, 1])
+        self.model.geom_friction[self.feet, 0] = self.scene.friction_at(touched[:, 0], touched[:, 1])
 
     def sense(self, i: int, dt: float) -> Measured:
         """The true state of robot `i`, copied."""

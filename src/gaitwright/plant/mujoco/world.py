@@ -158,5 +158,6 @@ def _add_shapes(thigh: Element, shank: Element, placed: Placed, k: int, solid: d
     length = np.linalg.norm(foot)
     end = foot * max(1.0 - 2.0 * r / length, 0.1)
     child(shank, "geom", solid, name=f"{leg}_shank", type="capsule", fromto=[0, 0, 0, *end], size=SHANK * r)
-    child(shank, "geom", solid, name=f"{leg}_foot", type="sphere", pos=foot, size=r)
+    feels = solid | {"priority": "1"}  # where the ground's friction differs, a foot has that of its place
+    child(shank, "geom", feels, name=f"{leg}_foot", type="sphere", pos=foot, size=r)
     child(shank, "site", name=f"{leg}_foot", type="sphere", pos=foot, size=TOUCH * r)

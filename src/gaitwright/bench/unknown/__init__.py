@@ -1,0 +1,4 @@
+"""Unknown ground, tried: random worlds, exact eyes, a disc that walks, an oracle, planners to compare with.
+
+Nothing here is shared with the learned map that it tests.
+"""

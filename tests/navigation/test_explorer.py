@@ -1,0 +1,113 @@
+"""A way through ground that is seen piece by piece."""
+
+import math
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from gaitwright.description.load import load_robot
+from gaitwright.ground.elevation import BLIND
+from gaitwright.model.robot import Robot
+from gaitwright.navigation.explorer import Explored, Explorer
+from gaitwright.navigation.obstacles import half_width
+from gaitwright.signals import GroundMap, Mission, Route, Sensed, Sight
+
+GO2 = load_robot("go2")
+R = half_width(GO2)
+BOUNDS = (-5.0, -5.0, 15.0, 5.0)
+EMPTY = GroundMap(BOUNDS, (), None, BLIND, GO2.step_limit)
+
+
+def at(x: float, y: float, robot: Robot = GO2) -> Sensed:
+    still, joints = np.zeros(3), np.zeros((robot.n, 3))
+    level = np.array([1.0, 0.0, 0.0, 0.0])
+    return Sensed(0.0, np.array([x, y, robot.height]), level, still, still, joints, joints, np.ones(robot.n))
+
+
+def sight(*pieces: tuple[float, float, float, float], eye: tuple[float, float] = (0.0, 0.0)) -> Sight:
+    """A look that shows whole edges, and nothing of what is free."""
+    return Sight(eye, np.array(pieces).reshape(-1, 4), np.ones((len(pieces), 2), bool), np.empty((0, 2)))
+
+
+def seeing(*pieces: tuple[float, float, float, float]) -> GroundMap:
+    return replace(EMPTY, sight=sight(*pieces))
+
+
+def clearance(path: list[tuple[float, float]], piece: tuple[float, float, float, float]) -> float:
+    """The least distance of a path from a piece, by brute force [m]."""
+    ways = [np.linspace(a, b, 400) for a, b in pairwise(path)]
+    edge = np.linspace(piece[:2], piece[2:], 400)
+    return min(float(np.hypot(*(w[:, None] - edge[None]).transpose(2, 0, 1)).min()) for w in ways)
+
+
+def begun(goal: tuple[float, float] = (10.0, 0.0)) -> tuple[Explorer, Route, Explored]:
+    explorer = Explorer(GO2, noise=0.005)
+    return explorer, *explorer.set_out(Mission((goal,), 0.4), at(0.0, 0.0), EMPTY)
+
+
+def test_what_is_unknown_is_taken_for_free():
+    _, route, _ = begun()
+    assert route.path == ((10.0, 0.0),) and route.no_way is None and route.speed == 0.4
+    assert route.begins == route.ends == 0.0
+
+
+def test_a_wall_that_is_seen_is_walked_around_at_once():
+    explorer, route, memory = begun()
+    wall = (3.0, -1.0, 3.0, 2.0)
+    route, memory = explorer.plan(route, at(1.0, 0.0), seeing(wall), None, memory)
+    path = [(1.0, 0.0), *route.path]
+    assert route.path[-1] == (10.0, 0.0) and clearance(path, wall) > R - 0.02
+    shortest = math.hypot(2.0, 1.0 + R) + math.hypot(7.0, 1.0 + R)
+    assert route.remaining == pytest.approx(shortest, rel=0.02)
+
+
+def test_a_way_that_nothing_new_comes_near_is_kept():
+    explorer, route, memory = begun()
+    again, memory = explorer.plan(route, at(1.0, 0.0), seeing((3.0, 2.0, 4.0, 2.0)), None, memory)
+    assert again.path is route.path and len(memory.known.pieces) == 1
+
+
+def test_a_look_is_learned_once_and_memory_is_a_value():
+    explorer, route, memory = begun()
+    ground = seeing((3.0, -1.0, 3.0, 2.0))
+    once, after = explorer.plan(route, at(1.0, 0.0), ground, None, memory)
+    twice, same = explorer.plan(route, at(1.0, 0.0), ground, None, memory)
+    assert once == twice and len(memory.known.pieces) == 0
+    _, later = explorer.plan(once, at(1.1, 0.0), ground, None, after)
+    assert later.known is after.known and same.known is not after.known
+
+
+def test_where_there_is_no_way_it_says_so_and_stays():
+    explorer, route, memory = begun()
+    x0, x1, y0, y1 = 9.0, 11.0, -1.0, 1.0
+    ring = ((x0, y0, x1, y0), (x1, y0, x1, y1), (x1, y1, x0, y1), (x0, y1, x0, y0))
+    route, memory = explorer.plan(route, at(1.0, 0.0), seeing(*ring), None, memory)
+    assert route.path == () and route.no_way == "to (10, 0) leads no way"
+    assert explorer.plan(route, at(1.0, 0.0), EMPTY, None, memory)[0] is route
+
+
+def test_way_points_are_passed_in_their_order():
+    explorer = Explorer(GO2, noise=0.005)
+    mission = Mission(((2.0, 0.0), (2.0, 3.0), (6.0, 3.0)))
+    route, memory = explorer.set_out(mission, at(0.0, 0.0), EMPTY)
+    assert route.path == mission.waypoints
+    route, memory = explorer.plan(route, at(2.0, 0.0), EMPTY, None, memory)
+    assert memory.left == mission.waypoints[1:]
+    wall = (1.0, 1.5, 2.5, 1.5)  # another way has to be found, and still over what is left
+    route, memory = explorer.plan(route, at(2.0, 0.2), seeing(wall), None, memory)
+    assert (2.0, 3.0) in route.path and route.path[-1] == (6.0, 3.0) and len(route.path) > 2
+    assert not route.arrived
+    route, memory = explorer.plan(replace(route, path=route.path[-1:]), at(6.0, 3.0), EMPTY, None, memory)
+    assert route.arrived
+
+
+def test_another_mission_goes_on_with_what_is_known():
+    explorer, route, memory = begun()
+    wall = (3.0, -1.0, 3.0, 2.0)
+    _, memory = explorer.plan(route, at(1.0, 0.0), seeing(wall), None, memory)
+    route, memory = explorer.set_out(Mission(((8.0, 1.0),)), at(1.0, 0.0), EMPTY, None, memory)
+    assert len(route.path) > 1 and clearance([(1.0, 0.0), *route.path], wall) > R - 0.02
+    fresh, _ = explorer.set_out(Mission(((8.0, 1.0),)), at(1.0, 0.0), EMPTY)
+    assert fresh.path == ((8.0, 1.0),)
