@@ -6,11 +6,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import shapely
 
-from gaitwright.bench.unknown.baselines import GridWay
-from gaitwright.bench.unknown.lattice import SOFT, joined, news
-from gaitwright.bench.unknown.optimum import HAIR, way_among
-from gaitwright.bench.unknown.segments import is_way_clear
-from gaitwright.bench.unknown.world import RADIUS, TOUCH, Point, edges_of
+from gaitwright.bench.unknown_worlds.baselines import GridWay
+from gaitwright.bench.unknown_worlds.lattice import SOFT, joined, news
+from gaitwright.bench.unknown_worlds.optimum import HAIR, way_among
+from gaitwright.bench.unknown_worlds.segments import is_way_clear
+from gaitwright.bench.unknown_worlds.world import RADIUS, TOUCH, Point, edges_of
 from gaitwright.signals import Sight
 
 QUARTER = 12

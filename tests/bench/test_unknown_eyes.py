@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from shapely import LineString
 from unknown_by_hand import boxes_by_lot, free_places, made
 
-from gaitwright.bench.unknown.eyes import DROPPED, SIGMA, Camera, blurred, look
-from gaitwright.bench.unknown.world import Point, World
+from gaitwright.bench.unknown_worlds.eyes import DROPPED, SIGMA, Camera, blurred, look
+from gaitwright.bench.unknown_worlds.world import Point, World
 from gaitwright.signals import Sight
 
 CAMERAS = (Camera(), Camera(3.0, 2.0 * math.pi), Camera(6.0, math.pi))

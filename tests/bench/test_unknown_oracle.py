@@ -11,13 +11,13 @@ from exact_planner import Exact
 from shapely import LineString
 from unknown_by_hand import boxes_by_lot, made
 
-from gaitwright.bench.unknown.drawn import KINDS, SIDEWAYS, rearranged, world
-from gaitwright.bench.unknown.eyes import Camera
-from gaitwright.bench.unknown.families import FAMILIES
-from gaitwright.bench.unknown.optimum import QUARTER, optimum, shortest
-from gaitwright.bench.unknown.oracle import grown, has_way, truth
-from gaitwright.bench.unknown.walker import ARRIVED, NONE, Walker
-from gaitwright.bench.unknown.world import APART, FREE, RADIUS, WIDER, World
+from gaitwright.bench.unknown_worlds.drawn import KINDS, SIDEWAYS, rearranged, world
+from gaitwright.bench.unknown_worlds.eyes import Camera
+from gaitwright.bench.unknown_worlds.families import FAMILIES
+from gaitwright.bench.unknown_worlds.optimum import QUARTER, optimum, shortest
+from gaitwright.bench.unknown_worlds.oracle import grown, has_way, truth
+from gaitwright.bench.unknown_worlds.walker import ARRIVED, NONE, Walker
+from gaitwright.bench.unknown_worlds.world import APART, FREE, RADIUS, WIDER, World
 
 
 def barred(*openings: tuple[float, float]) -> World:

@@ -12,13 +12,13 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 from unknown_by_hand import boxes_by_lot, free_places, made
 
-from gaitwright.bench.unknown.baselines import AStar, DStarLite, GridWay, PulledAStar, ThetaStar
-from gaitwright.bench.unknown.drawn import world
-from gaitwright.bench.unknown.eyes import Camera
-from gaitwright.bench.unknown.lattice import CELL, GO_X, GO_Y, Lattice
-from gaitwright.bench.unknown.optimum import optimum
-from gaitwright.bench.unknown.walker import ARRIVED, Walker
-from gaitwright.bench.unknown.world import BOUNDS, RADIUS, Point, World
+from gaitwright.bench.unknown_worlds.baselines import AStar, DStarLite, GridWay, PulledAStar, ThetaStar
+from gaitwright.bench.unknown_worlds.drawn import world
+from gaitwright.bench.unknown_worlds.eyes import Camera
+from gaitwright.bench.unknown_worlds.lattice import CELL, GO_X, GO_Y, Lattice
+from gaitwright.bench.unknown_worlds.optimum import optimum
+from gaitwright.bench.unknown_worlds.walker import ARRIVED, Walker
+from gaitwright.bench.unknown_worlds.world import BOUNDS, RADIUS, Point, World
 
 SMALL = Lattice.of(BOUNDS, RADIUS)
 

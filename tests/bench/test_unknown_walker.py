@@ -15,21 +15,21 @@ from unknown_by_hand import boxes_by_lot, free_places, made
 from gaitwright.bench.claims import worlds
 from gaitwright.bench.context import Context
 from gaitwright.bench.measurement import at_most
-from gaitwright.bench.unknown import contestants, standings, walker
-from gaitwright.bench.unknown.baselines import AStar, GridWay
-from gaitwright.bench.unknown.body import advance
-from gaitwright.bench.unknown.contestants import (
+from gaitwright.bench.unknown_worlds import contestants, standings, walker
+from gaitwright.bench.unknown_worlds.baselines import AStar, GridWay
+from gaitwright.bench.unknown_worlds.body import advance
+from gaitwright.bench.unknown_worlds.contestants import (
     ANY_ANGLE,
     BASELINES,
     LEARNED,
     THESIS,
     planner,
 )
-from gaitwright.bench.unknown.drawn import world
-from gaitwright.bench.unknown.eyes import Camera
-from gaitwright.bench.unknown.optimum import Optimum
-from gaitwright.bench.unknown.tours import Asked, Found, toured
-from gaitwright.bench.unknown.walker import (
+from gaitwright.bench.unknown_worlds.drawn import world
+from gaitwright.bench.unknown_worlds.eyes import Camera
+from gaitwright.bench.unknown_worlds.optimum import Optimum
+from gaitwright.bench.unknown_worlds.tours import Asked, Found, toured
+from gaitwright.bench.unknown_worlds.walker import (
     ARRIVED,
     LOST,
     MOST_CONTACTS,
@@ -42,7 +42,7 @@ from gaitwright.bench.unknown.walker import (
     Trip,
     Walker,
 )
-from gaitwright.bench.unknown.world import RADIUS, TOUCH, Point, World
+from gaitwright.bench.unknown_worlds.world import RADIUS, TOUCH, Point, World
 from gaitwright.signals import Sight
 from gaitwright.workers import Workers
 

@@ -8,7 +8,7 @@ import shapely
 from shapely import Polygon
 from shapely.affinity import rotate
 
-from gaitwright.bench.unknown.world import Point, World, border
+from gaitwright.bench.unknown_worlds.world import Point, World, border
 
 
 def made(obstacles: Sequence[Polygon], start: Point = (2.0, 10.0), goal: Point = (18.0, 10.0)) -> World:

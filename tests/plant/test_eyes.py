@@ -12,7 +12,7 @@ from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.ground.terrain import Box, Flat, Slope
 from gaitwright.model.camera import Camera
 from gaitwright.numerics.geometry import rotation
-from gaitwright.plant.eyes import MOST_CELLS, Eyes, relief_of
+from gaitwright.plant.eyes import MOST_CELLS, Eyes, facets_of
 from gaitwright.plant.mujoco.depth import depth_frame
 from gaitwright.plant.mujoco.simulation import MujocoPlant
 from oracles import robot_called
@@ -28,7 +28,7 @@ def both(scene: Scene, place=(0.0, 0.0), angles=(0.0, 0.0, 0.0)) -> tuple[np.nda
     plant.data.qpos[:3], plant.data.qpos[3:7] = sensed.position_w, sensed.orientation_wb
     mujoco.mj_forward(plant.model, plant.data)
     eyes = Eyes(CAMERA, scene)
-    return eyes.see(sensed).ranges, depth_frame(plant.world, CAMERA).ranges, float(eyes.relief.place[2])
+    return eyes.see(sensed).ranges, depth_frame(plant.world, CAMERA).ranges, float(eyes.facets.place[2])
 
 
 # The share of rays that may be more than a cell's diagonal off: those that just miss or meet a block's rim.
@@ -84,12 +84,12 @@ def test_what_is_hidden_stays_hidden():
 def test_a_scene_larger_than_memory_is_drawn_around_the_robot_as_it_walks():
     far = Scene("far", Flat(), (Box(81.0, 0.0, 0.0, 0.2, 2.0, 0.4),), (-400.0, -400.0, 400.0, 400.0))
     eyes = Eyes(CAMERA, far)
-    assert eyes.relief.planes.shape[0] * eyes.relief.planes.shape[1] <= 1.1 * MOST_CELLS
-    first = eyes.relief
+    assert eyes.facets.planes.shape[0] * eyes.facets.planes.shape[1] <= 1.1 * MOST_CELLS
+    first = eyes.facets
     eyes.see(posed(DOG, far, (0.1, 0.0)))
-    assert eyes.relief is first
+    assert eyes.facets is first
     ranges = eyes.see(posed(DOG, far, (80.0, 0.0))).ranges
-    assert eyes.relief is not first
+    assert eyes.facets is not first
     small = replace(far, bounds=(76.0, -4.0, 84.0, 4.0))
     np.testing.assert_allclose(
         ranges, Eyes(CAMERA, small).see(posed(DOG, far, (80.0, 0.0))).ranges, atol=0.03
@@ -132,7 +132,7 @@ def test_mujocos_camera_has_the_same_imperfections_and_sees_no_leg_of_its_own():
 
 
 def test_a_relief_goes_beyond_the_bounds_and_its_tiles_hold_their_cells():
-    relief = relief_of(crowd(50), (0.0, 0.0), 1.0, 0.02)
+    relief = facets_of(crowd(50), (0.0, 0.0), 1.0, 0.02)
     x, y, cell = relief.place
     rows, columns, _ = relief.planes.shape
     assert x <= -8.0 and y <= -8.0 and x + cell * columns >= 8.0 and y + cell * rows >= 8.0

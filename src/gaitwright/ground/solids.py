@@ -84,7 +84,7 @@ class Pyramid(Solid):
         return self.height / (min(self.lx, self.ly) / 2 * (1.0 - self.top))
 
     def rises(self, step: float) -> bool:
-        return min(self.height, step * self.steepness) > step
+        return bool(min(self.height, step * self.steepness) > step)
 
 
 @final
@@ -163,7 +163,7 @@ class Sphere(Solid):
 
     def rises(self, step: float) -> bool:
         inside = max(self.rim - step, 0.0)
-        return self.height - self.radius + math.sqrt(self.radius**2 - inside**2) > step
+        return bool(self.height - self.radius + math.sqrt(self.radius**2 - inside**2) > step)
 
 
 @final

@@ -151,7 +151,7 @@ class Solid(ABC):
 
     def rises(self, step: float) -> bool:
         """Whether it rises by more than `step` [m] within the same distance: then it cannot be stepped on."""
-        return self.height > step
+        return bool(self.height > step)
 
     @property
     def reach(self) -> float:

@@ -68,6 +68,8 @@ def alone(compiled: Any) -> Any:
     numba writes a kernel's index and its code one after the other and without a lock: of two processes at it
     at once, one may be left with an index that names the other's code.
     """
+    if not hasattr(compiled, "py_func"):  # where numba was told to compile nothing
+        return compiled
     function, compile_it = compiled.py_func, compiled.compile
     lock = Path(settings.CACHE_DIR) / "locks" / f"{function.__module__}.{function.__qualname__}"
 

@@ -1,6 +1,6 @@
 """Scene + pose → DepthFrame: a simulated depth camera that casts all rays of a frame over a height field.
 
-The scene is drawn once as a *relief* of small cells, so a frame among 2,000 boxes is as quick as among 20.
+The scene is drawn once as *facets*, small cells, so a frame among 2,000 boxes is as quick as among 20.
 Each cell is a plane, and where the planes of two cells do not meet stands a wall between them: slopes are
 smooth, and a block's face is hit where it stands, to half a cell.
 """
@@ -28,7 +28,7 @@ DRAWN = 250_000
 """Cells drawn at once: a scene's heights are asked for in parts, so that memory stays small."""
 
 
-class Relief(NamedTuple):
+class Facets(NamedTuple):
     """The heights of a part of a scene, cell by cell."""
 
     place: np.ndarray
@@ -39,10 +39,10 @@ class Relief(NamedTuple):
     """`(rows / TILE, columns / TILE)` highest place in each tile [m]."""
 
 
-def relief_of(scene: Scene, around: tuple[float, float], reach: float, cell: float) -> Relief:
-    """The relief of a scene, or of the square of `MOST_CELLS` around a place x, y where it is larger.
+def facets_of(scene: Scene, around: tuple[float, float], reach: float, cell: float) -> Facets:
+    """The facets of a scene, or of the square of `MOST_CELLS` around a place x, y where it is larger.
 
-    It goes `reach` [m] beyond the scene's bounds: a robot at its rim looks out.
+    They go `reach` [m] beyond the scene's bounds: a robot at its rim looks out.
     """
     half = 0.5 * cell * math.sqrt(MOST_CELLS)
     x_min, y_min, x_max, y_max = scene.bounds
@@ -57,7 +57,7 @@ def relief_of(scene: Scene, around: tuple[float, float], reach: float, cell: flo
     heights = np.concatenate([scene.height(x[None, :], part[:, None]) for part in parts])
     planes, tops = np.empty((rows, columns, 3), np.float32), np.empty((rows // TILE, columns // TILE))
     draw(np.ascontiguousarray(heights, dtype=float), cell, planes, tops)
-    return Relief(np.array([*low, cell]), planes, tops)
+    return Facets(np.array([*low, cell]), planes, tops)
 
 
 def imperfect(
@@ -74,13 +74,13 @@ def imperfect(
 
 @dataclass
 class Eyes:
-    """A simulated camera in a scene; it keeps the relief that it looks at."""
+    """A simulated camera in a scene; it keeps the facets that it looks at."""
 
     camera: Camera
     scene: Scene
     seed: int = 0
     """Of the run: what noise and drop-outs are drawn from, with the tick."""
-    relief: Relief = field(init=False, repr=False)
+    facets: Facets = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         self.rearrange(self.scene)
@@ -88,25 +88,25 @@ class Eyes:
     def rearrange(self, scene: Scene) -> None:
         """Another arrangement of what stands around from now on."""
         self.scene = scene
-        self.relief = self._drawn(scene.start[:2])
+        self.facets = self._drawn(scene.start[:2])
 
     def see(self, sensed: Sensed, tick: int = 0) -> DepthFrame:
         """What the camera of a robot sees whose base is where `sensed` says."""
         R_wb = rotation(sensed.orientation_wb)
         eye = self.camera.eye(sensed.position_w, R_wb)
         if not self._holds(eye):
-            self.relief = self._drawn((float(eye[0]), float(eye[1])))
+            self.facets = self._drawn((float(eye[0]), float(eye[1])))
         ranges = np.empty(len(self.camera.rays))
-        cast(*self.relief, eye, R_wb, self.camera.rays, self.camera.range, ranges)
+        cast(*self.facets, eye, R_wb, self.camera.rays, self.camera.range, ranges)
         return DepthFrame(imperfect(ranges, self.camera, self.seed, tick), sensed.time)
 
-    def _drawn(self, around: tuple[float, float]) -> Relief:
-        return relief_of(self.scene, around, self.camera.range, CELL * self.camera.range)
+    def _drawn(self, around: tuple[float, float]) -> Facets:
+        return facets_of(self.scene, around, self.camera.range, CELL * self.camera.range)
 
     def _holds(self, eye: Float[np.ndarray, "3"]) -> bool:
-        """Whether the relief has all that can be seen from here, or the scene has no more."""
-        (x, y, cell), reach = self.relief.place, self.camera.range
-        rows, columns, _ = self.relief.planes.shape
+        """Whether the facets have all that can be seen from here, or the scene has no more."""
+        (x, y, cell), reach = self.facets.place, self.camera.range
+        rows, columns, _ = self.facets.planes.shape
         x_min, y_min, x_max, y_max = self.scene.bounds
         lower = max(eye[0] - reach, x_min) >= x and max(eye[1] - reach, y_min) >= y
         far_x, far_y = min(eye[0] + reach, x_max), min(eye[1] + reach, y_max)
@@ -150,7 +150,7 @@ def crossings(low, cell, origin, way):
 
 @kernel
 def start_of(eye, ray, highest):
-    """How far along a ray it comes down to the highest place of a relief [m]; infinite where never."""
+    """How far along a ray it comes down to the highest of all facets [m]; infinite where never."""
     if eye[2] <= highest:
         return 0.0
     return (eye[2] - highest) / -ray[2] if ray[2] < 0.0 else math.inf
@@ -176,7 +176,7 @@ def met(place, planes, i, j, eye, ray, s, end):
 
 @kernel
 def cast_one(place, planes, tops, eye, ray, s, reach):
-    """Distance along one ray to the relief [m], looked for from `s` on; NaN if none is in `reach`."""
+    """Distance along one ray to the facets [m], looked for from `s` on; NaN if none is in `reach`."""
     cell, (rows, columns, _) = place[2], planes.shape
     step_x, first_x, gain_x = crossings(place[0], cell, eye[0], ray[0])
     step_y, first_y, gain_y = crossings(place[1], cell, eye[1], ray[1])
@@ -215,7 +215,7 @@ def cast_one(place, planes, tops, eye, ray, s, reach):
 
 @kernel
 def cast(place, planes, tops, eye, R_wb, rays, reach, out):
-    """Writes the distance along each ray `(pixels, 3)`, base axes, to a relief [m]; NaN beyond `reach`."""
+    """Writes the distance along each ray `(pixels, 3)`, base axes, to facets [m]; NaN beyond `reach`."""
     highest = tops.max()
     for k in range(rays.shape[0]):
         ray = times(R_wb, vec(rays[k]))

@@ -209,7 +209,7 @@ def against_mujoco(taken: Walk, what: str) -> Iterator[Figure]:
         depth_frame(plant.world, taken.camera)
         times.append((thread_time_ns() - began) / 1e6)
     ours = eyes.see(measured).ranges
-    cell = float(eyes.relief.place[2])
+    cell = float(eyes.facets.place[2])
     off = np.abs(ours - frame.ranges)
     share = float((off[np.isfinite(off)] > 1.5 * cell).mean())
     note = f"a cell is {100 * cell:.1f} cm; {np.isfinite(off).sum()} rays"

@@ -10,8 +10,8 @@ import numpy as np
 
 from gaitwright.bench.context import Context
 from gaitwright.bench.measurement import Figure, at_most
-from gaitwright.bench.unknown import standings
-from gaitwright.bench.unknown.contestants import (
+from gaitwright.bench.unknown_worlds import standings
+from gaitwright.bench.unknown_worlds.contestants import (
     A_STAR,
     ANY_ANGLE,
     BASELINES,
@@ -19,9 +19,9 @@ from gaitwright.bench.unknown.contestants import (
     LEARNED,
     THESIS,
 )
-from gaitwright.bench.unknown.drawn import world
-from gaitwright.bench.unknown.eyes import Camera, look
-from gaitwright.bench.unknown.tours import Asked, Found, load, toured
+from gaitwright.bench.unknown_worlds.drawn import world
+from gaitwright.bench.unknown_worlds.eyes import Camera, look
+from gaitwright.bench.unknown_worlds.tours import Asked, Found, load, toured
 
 WORLDS, QUICK = 500, 40
 FEW = 60
@@ -40,7 +40,7 @@ NOTE = (
     "Theta*, pulled straight. First trips: sums over worlds in which everyone arrived, 95 % by bootstrap; "
     "time at 0.5 m/s and 1 rad/s."
 )
-PICTURE = Path("runs/bench/unknown-worlds.png")
+PICTURE = Path("runs/bench/unknown_worlds-worlds.png")
 FIRST_TRIPS = (
     (standings.metres, A_STAR, -5.0),
     (standings.metres, D_STAR, -5.0),
@@ -142,7 +142,7 @@ def drawn(context: Context, everyone: tuple[str, ...]) -> Figure:
     what = "unknown worlds: a picture of first trips"
     if not find_spec("matplotlib"):
         return Figure(what, float("nan"), "", None, 0, "it needs `pip install 'gaitwright[plot]'`")
-    from gaitwright.bench.unknown.drawing import draw  # noqa: PLC0415 - an extra, and slow to import
+    from gaitwright.bench.unknown_worlds.drawing import draw  # noqa: PLC0415 - an extra, and slow to import
 
     worlds = draw(context.seed, everyone, PICTURE)
     return Figure(what, float(worlds), "worlds", None, worlds, f"picture: {PICTURE}")

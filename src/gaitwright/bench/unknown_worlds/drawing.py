@@ -2,13 +2,13 @@
 
 from pathlib import Path
 
-from gaitwright.bench.unknown.baselines import length_of
-from gaitwright.bench.unknown.contestants import planner
-from gaitwright.bench.unknown.drawn import world
-from gaitwright.bench.unknown.eyes import Camera
-from gaitwright.bench.unknown.families import FAMILIES
-from gaitwright.bench.unknown.optimum import shortest_way
-from gaitwright.bench.unknown.walker import Walker
+from gaitwright.bench.unknown_worlds.baselines import length_of
+from gaitwright.bench.unknown_worlds.contestants import planner
+from gaitwright.bench.unknown_worlds.drawn import world
+from gaitwright.bench.unknown_worlds.eyes import Camera
+from gaitwright.bench.unknown_worlds.families import FAMILIES
+from gaitwright.bench.unknown_worlds.optimum import shortest_way
+from gaitwright.bench.unknown_worlds.walker import Walker
 from gaitwright.pictures.walks_above import Walks, walks_picture
 
 NUMBERS = (*range(2 * len(FAMILIES), 3 * len(FAMILIES)), 2)

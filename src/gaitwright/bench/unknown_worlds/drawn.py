@@ -9,10 +9,20 @@ import shapely
 from shapely import Polygon
 from shapely.affinity import translate
 
-from gaitwright.bench.unknown.families import FAMILIES
-from gaitwright.bench.unknown.oracle import has_way
-from gaitwright.bench.unknown.pockets import gap_width, pocket
-from gaitwright.bench.unknown.world import APART, BOUNDS, FREE, RADIUS, SIZE, WIDER, Point, World, border
+from gaitwright.bench.unknown_worlds.families import FAMILIES
+from gaitwright.bench.unknown_worlds.oracle import has_way
+from gaitwright.bench.unknown_worlds.pockets import gap_width, pocket
+from gaitwright.bench.unknown_worlds.world import (
+    APART,
+    BOUNDS,
+    FREE,
+    RADIUS,
+    SIZE,
+    WIDER,
+    Point,
+    World,
+    border,
+)
 
 KINDS = ("gap", "walled", "open", "open", "walled", "open", "gap", "open", "walled", "open", "open", "open",
          "walled", "open", "gap", "open", "open", "open", "open", "open")  # fmt: skip

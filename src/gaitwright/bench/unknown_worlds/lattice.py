@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float, UInt8
 
-from gaitwright.bench.unknown.segments import (
+from gaitwright.bench.unknown_worlds.segments import (
     clearance,
     is_clear,
     is_way_clear,

@@ -4,13 +4,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache
 
-from gaitwright.bench.unknown.contestants import planner
-from gaitwright.bench.unknown.drawn import rearranged, world
-from gaitwright.bench.unknown.eyes import SIGMA, Camera
-from gaitwright.bench.unknown.optimum import Optimum, optimum
-from gaitwright.bench.unknown.oracle import has_way, truth
-from gaitwright.bench.unknown.walker import ARRIVED, NONE, Trip, Walker
-from gaitwright.bench.unknown.world import RADIUS, WIDER, World
+from gaitwright.bench.unknown_worlds.contestants import planner
+from gaitwright.bench.unknown_worlds.drawn import rearranged, world
+from gaitwright.bench.unknown_worlds.eyes import SIGMA, Camera
+from gaitwright.bench.unknown_worlds.optimum import Optimum, optimum
+from gaitwright.bench.unknown_worlds.oracle import has_way, truth
+from gaitwright.bench.unknown_worlds.walker import ARRIVED, NONE, Trip, Walker
+from gaitwright.bench.unknown_worlds.world import RADIUS, WIDER, World
 
 TRIPS, FIRST = 5, 10
 """Trips in a world, and the world that is tried before those that count: an open one."""

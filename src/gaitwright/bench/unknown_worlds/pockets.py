@@ -12,8 +12,8 @@ import numpy as np
 import shapely
 from shapely import Polygon
 
-from gaitwright.bench.unknown.families import JOINTS, wall
-from gaitwright.bench.unknown.world import RADIUS, Point
+from gaitwright.bench.unknown_worlds.families import JOINTS, wall
+from gaitwright.bench.unknown_worlds.world import RADIUS, Point
 
 OVER = ((-0.005, -0.0012), (0.0002, 0.0112), (0.0114, 0.015))
 """Widths of gaps, less the disc's [m]: too narrow, as a planner of tangent polygons may have it, wide enough.

@@ -2,9 +2,9 @@
 
 from collections.abc import Callable
 
-from gaitwright.bench.unknown.baselines import AStar, DStarLite, ThetaStar
-from gaitwright.bench.unknown.walker import Planner
-from gaitwright.bench.unknown.world import BOUNDS, RADIUS
+from gaitwright.bench.unknown_worlds.baselines import AStar, DStarLite, ThetaStar
+from gaitwright.bench.unknown_worlds.walker import Planner
+from gaitwright.bench.unknown_worlds.world import BOUNDS, RADIUS
 from gaitwright.navigation.learned_map import LearnedMap
 
 LEARNED, THESIS = "learned map", "the thesis's rule"

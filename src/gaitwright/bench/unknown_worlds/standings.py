@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 
 from gaitwright.bench.measurement import Figure, Wanted, at_most, count
-from gaitwright.bench.unknown.families import FAMILIES
-from gaitwright.bench.unknown.tours import Found
-from gaitwright.bench.unknown.walker import ARRIVED, NONE, Trip
+from gaitwright.bench.unknown_worlds.families import FAMILIES
+from gaitwright.bench.unknown_worlds.tours import Found
+from gaitwright.bench.unknown_worlds.walker import ARRIVED, NONE, Trip
 
 DRAWS = 2000
 """Of the bootstrap."""

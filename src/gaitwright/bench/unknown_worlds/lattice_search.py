@@ -9,9 +9,9 @@ import math
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.bench.unknown.heap import drop, push
-from gaitwright.bench.unknown.lattice import CELL, GO_X, GO_Y
-from gaitwright.bench.unknown.segments import is_clear
+from gaitwright.bench.unknown_worlds.heap import drop, push
+from gaitwright.bench.unknown_worlds.lattice import CELL, GO_X, GO_Y
+from gaitwright.bench.unknown_worlds.segments import is_clear
 from gaitwright.numerics.compiled import kernel
 
 UNIT = 1e6

@@ -2,7 +2,7 @@
 
 import shapely
 
-from gaitwright.bench.unknown.world import BOUNDS, RADIUS, WIDER, Point, World
+from gaitwright.bench.unknown_worlds.world import BOUNDS, RADIUS, WIDER, Point, World
 
 QUARTER = 64
 """Chords of a quarter circle: the room taken is too small by at most 0.012 mm."""

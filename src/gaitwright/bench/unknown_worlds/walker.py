@@ -12,9 +12,9 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.bench.unknown.body import advance, touched
-from gaitwright.bench.unknown.eyes import Camera, blurred, look
-from gaitwright.bench.unknown.world import RADIUS, TOUCH, Point, World
+from gaitwright.bench.unknown_worlds.body import advance, touched
+from gaitwright.bench.unknown_worlds.eyes import Camera, blurred, look
+from gaitwright.bench.unknown_worlds.world import RADIUS, TOUCH, Point, World
 from gaitwright.signals import Sight
 
 STEP, TURN = 0.1, 0.3

@@ -12,7 +12,7 @@ import shapely
 from shapely import Polygon
 from shapely.affinity import rotate, translate
 
-from gaitwright.bench.unknown.world import BOUNDS, SIZE
+from gaitwright.bench.unknown_worlds.world import BOUNDS, SIZE
 
 JOINTS = (0.0, 1e-9, -1e-9, 0.03)
 """Neighbouring boxes of a wall overlap by one of these [m]; negative ones stand apart."""

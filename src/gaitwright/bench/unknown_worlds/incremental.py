@@ -8,9 +8,9 @@ import math
 
 import numpy as np
 
-from gaitwright.bench.unknown.heap import drop, push
-from gaitwright.bench.unknown.lattice import GO_X, GO_Y, Lattice
-from gaitwright.bench.unknown.lattice_search import DIAGONAL, UNIT, in_units, octile
+from gaitwright.bench.unknown_worlds.heap import drop, push
+from gaitwright.bench.unknown_worlds.lattice import GO_X, GO_Y, Lattice
+from gaitwright.bench.unknown_worlds.lattice_search import DIAGONAL, UNIT, in_units, octile
 from gaitwright.numerics.compiled import kernel
 
 

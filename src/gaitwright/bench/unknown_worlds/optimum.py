@@ -13,10 +13,10 @@ import numpy as np
 import shapely
 from jaxtyping import Float
 
-from gaitwright.bench.unknown.heap import drop, push
-from gaitwright.bench.unknown.oracle import grown
-from gaitwright.bench.unknown.segments import crosses
-from gaitwright.bench.unknown.world import RADIUS, Point, World, edges_of
+from gaitwright.bench.unknown_worlds.heap import drop, push
+from gaitwright.bench.unknown_worlds.oracle import grown
+from gaitwright.bench.unknown_worlds.segments import crosses
+from gaitwright.bench.unknown_worlds.world import RADIUS, Point, World, edges_of
 from gaitwright.numerics.compiled import kernel
 
 QUARTER = 8

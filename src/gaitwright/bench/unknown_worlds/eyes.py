@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gaitwright.bench.unknown.segments import point_to_piece
-from gaitwright.bench.unknown.world import Point, World
+from gaitwright.bench.unknown_worlds.segments import point_to_piece
+from gaitwright.bench.unknown_worlds.world import Point, World
 from gaitwright.numerics.compiled import kernel
 from gaitwright.signals import Sight
 

@@ -11,10 +11,10 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float
 
-from gaitwright.bench.unknown.incremental import Search
-from gaitwright.bench.unknown.lattice import CELL, Lattice, own_room
-from gaitwright.bench.unknown.lattice_search import a_star, descent, in_units, pulled, theta_star
-from gaitwright.bench.unknown.world import BOUNDS, RADIUS, TOUCH, Point
+from gaitwright.bench.unknown_worlds.incremental import Search
+from gaitwright.bench.unknown_worlds.lattice import CELL, Lattice, own_room
+from gaitwright.bench.unknown_worlds.lattice_search import a_star, descent, in_units, pulled, theta_star
+from gaitwright.bench.unknown_worlds.world import BOUNDS, RADIUS, TOUCH, Point
 from gaitwright.signals import Sight
 
 FELT = 0.01

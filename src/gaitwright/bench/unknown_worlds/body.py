@@ -2,7 +2,7 @@
 
 import math
 
-from gaitwright.bench.unknown.segments import point_to_piece
+from gaitwright.bench.unknown_worlds.segments import point_to_piece
 from gaitwright.numerics.compiled import kernel
 
 HAIR = 1e-9
