@@ -102,12 +102,15 @@ class Brain:
         """
         if chooser is None:
             chooser = DefaultChooser(robot) if rulebook is None else RuleChooser(robot, rulebook)
-        numerical, known = NumericalController(robot, method), KnownGround.of(scene, robot, sees)
-        perception: Perception = known if sensing == "true" else EstimatedState(known, robot, dt)
+        numerical = NumericalController(robot, method)
+        perception: Perception
         navigator: Navigation = Navigator(robot)
         if camera is not None:
             perception = SeeingGround.of(scene.bounds, robot, camera, dt if sensing == "estimated" else None)
             navigator = Explorer(robot, perception.noise)
+        else:
+            known = KnownGround.of(scene, robot, sees)
+            perception = known if sensing == "true" else EstimatedState(known, robot, dt)
         return cls(
             robot,
             perception,

@@ -109,7 +109,8 @@ def set_up(
     with working(f"mapping scene {scene.name}", worth_a_line=None):
         sees = sight != "blind"
         brain = Brain.of(robot, scene, chooser, DT, distribution, sees=sees, sensing=sensing, camera=camera)
-        on_obstacle = Navigator(robot).view(map_of(scene, robot, sees)).blocked((x, y))
+        true = map_of(scene, robot) if camera else brain.perception.ground  # a camera has seen nothing yet
+        on_obstacle = Navigator(robot).view(true).blocked((x, y))
     if on_obstacle:
         raise WrongUse(
             f"the start ({x:g}, {y:g}) is on an obstacle of scene {scene.name}, or too near to one"

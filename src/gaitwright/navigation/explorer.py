@@ -4,6 +4,7 @@ What was seen is kept in a learned map; what was not is taken for free. The way 
 look shows that it is blocked, and the robot says that there is no way when there is none.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -63,11 +64,11 @@ class Explorer:
             known = self.nothing(ground.bounds)
         sight = memory.sight if memory is not None else None
         explored = looked(Explored(known, left, frozenset(), sight), ground.sight)
-        route = replace(self.route(explored.known, here, left), speed=mission.speed)
-        if route.no_way:
-            return route, explored
-        begins, ends = directions((here, *route.path))
-        route = replace(route, begins=begins, ends=ends)
+        path, no_way = way_over(explored.known, here, left)
+        if no_way:
+            return nowhere(mission, no_way), explored
+        begins, ends = directions((here, *path))
+        route = Route(path, length(here, path), mission.speed, begins=begins, ends=ends)
         return self.seen(route, sensed, scan, explored)
 
     def plan(
@@ -85,10 +86,9 @@ class Explorer:
             path = path[1:]
         explored = explored._replace(left=left)
         if known.is_cut((here, *path)):
-            other = self.route(known, here, left)
-            if other.no_way:
-                return replace(route, path=(), no_way=other.no_way), explored
-            path = other.path
+            path, no_way = way_over(known, here, left)
+            if no_way:
+                return replace(route, path=(), no_way=no_way), explored
         remaining = length(here, path)
         near = ARRIVED if route.arrived else STOP_AT
         arrived = len(path) == 1 and remaining < near * unit
@@ -100,19 +100,9 @@ class Explorer:
         """What it knows of a field where it has never been."""
         return LearnedMap.of(bounds, half_width(self.robot), self.strategy, self.noise)
 
-    def route(self, known: LearnedMap, here: Point, left: Sequence[Point]) -> Route:
-        """A way from here over all way-points, or why there is none."""
-        path: list[Point] = []
-        for point in left:
-            leg = known.way(path[-1] if path else here, point)
-            if leg is None:
-                return nowhere(Mission(()), f"to ({point[0]:g}, {point[1]:g}) leads no way")
-            path.extend(leg.path)
-        return Route(tuple(path), length(here, tuple(path)), None)
-
     def has_passed(self, known: LearnedMap, here: Point, point: Point, onwards: Point) -> bool:
         """Whether the robot may leave a point of its path behind: near it, and free to go on."""
-        away = length(here, (point,)) / self.robot.body_length
+        away = math.dist(here, point) / self.robot.body_length
         return away < STOP_AT or (away < PASSED and not known.is_cut((here, onwards)))
 
     def seen(
@@ -121,6 +111,17 @@ class Explorer:
         """The route with what is seen of the ground ahead, and with this place remembered."""
         route, travelled = Navigator(self.robot).seen(route, sensed, scan, explored.travelled)
         return route, explored._replace(travelled=travelled)
+
+
+def way_over(known: LearnedMap, here: Point, points: Sequence[Point]) -> tuple[tuple[Point, ...], str | None]:
+    """A path from here over all way-points, or why there is none."""
+    path: list[Point] = []
+    for point in points:
+        leg = known.way(path[-1] if path else here, point)
+        if leg is None:
+            return (), f"to ({point[0]:g}, {point[1]:g}) leads no way"
+        path.extend(leg.path)
+    return tuple(path), None
 
 
 def looked(explored: Explored, sight: Sight | None) -> Explored:
