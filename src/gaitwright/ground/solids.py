@@ -12,7 +12,17 @@ import shapely
 from jaxtyping import Float
 
 from gaitwright.ground.outlines import Outline, circle, convex_parts
-from gaitwright.ground.terrain import CYLINDER, PRISM, PYRAMID, SPHERE, WEDGE, Solid, lifted, rectangle
+from gaitwright.ground.terrain import (
+    CYLINDER,
+    PRISM,
+    PYRAMID,
+    SPHERE,
+    WEDGE,
+    OnRectangle,
+    Solid,
+    lifted,
+    rectangle,
+)
 
 
 @final
@@ -43,7 +53,7 @@ class Cylinder(Solid):
 
 @final
 @dataclass(frozen=True)
-class Pyramid(Solid):
+class Pyramid(OnRectangle):
     """A pyramid over a rectangle; cut off level, a frustum. A flat one is a slope to walk over."""
 
     x: float
@@ -58,13 +68,6 @@ class Pyramid(Solid):
     top: float = 0.0
     """Length of the sides of its level top over that of its base's, from 0 (a peak) to below 1."""
     base: float = 0.0
-
-    @property
-    def centre(self) -> tuple[float, float]:
-        return self.x, self.y
-
-    def corners(self) -> Float[np.ndarray, "corners 2"]:
-        return rectangle(self.x, self.y, self.yaw, self.lx, self.ly)
 
     def tops(self) -> tuple[Float[np.ndarray, "_ 3"], ...]:
         low = lifted(self.corners(), 0.0)
@@ -89,7 +92,7 @@ class Pyramid(Solid):
 
 @final
 @dataclass(frozen=True)
-class Wedge(Solid):
+class Wedge(OnRectangle):
     """A ramp: over a rectangle it rises from nothing at one side to its height at the other."""
 
     x: float
@@ -102,13 +105,6 @@ class Wedge(Solid):
     """Its length along that direction, and its width [m]."""
     height: float
     base: float = 0.0
-
-    @property
-    def centre(self) -> tuple[float, float]:
-        return self.x, self.y
-
-    def corners(self) -> Float[np.ndarray, "corners 2"]:
-        return rectangle(self.x, self.y, self.yaw, self.lx, self.ly)
 
     def tops(self) -> tuple[Float[np.ndarray, "_ 3"], ...]:
         return (lifted(self.corners(), np.array([self.height, 0.0, 0.0, self.height])),)

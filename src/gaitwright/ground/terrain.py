@@ -164,13 +164,34 @@ class Solid(ABC):
         return float(x_min), float(y_min), float(x_max), float(y_max)
 
 
+class OnRectangle(Solid):
+    """A solid over a rectangle."""
+
+    x: float
+    y: float
+    """Centre, world [m]."""
+    yaw: float
+    """Direction of the side `lx` [rad]."""
+    lx: float
+    ly: float
+    """Lengths of the sides [m]."""
+
+    @property
+    def centre(self) -> tuple[float, float]:
+        return self.x, self.y
+
+    def corners(self) -> Float[np.ndarray, "4 2"]:
+        """Corners of its outline, anticlockwise, world [m]."""
+        return rectangle(self.x, self.y, self.yaw, self.lx, self.ly)
+
+
 BOX, CYLINDER, PYRAMID, WEDGE, SPHERE, PRISM = map(float, range(6))
 """Kinds of solids, as the first number of their rows."""
 
 
 @final
 @dataclass(frozen=True)
-class Box(Solid):
+class Box(OnRectangle):
     """A block with vertical sides and a level top. Low ones are stepped on, high ones walked around."""
 
     x: float
@@ -191,14 +212,6 @@ class Box(Solid):
         c, s = math.cos(self.yaw), math.sin(self.yaw)
         dx, dy = np.asarray(x) - self.x, np.asarray(y) - self.y
         return (np.abs(c * dx + s * dy) <= self.lx / 2) & (np.abs(c * dy - s * dx) <= self.ly / 2)
-
-    def corners(self) -> Float[np.ndarray, "4 2"]:
-        """Corners of its outline, anticlockwise, world [m]."""
-        return rectangle(self.x, self.y, self.yaw, self.lx, self.ly)
-
-    @property
-    def centre(self) -> tuple[float, float]:
-        return self.x, self.y
 
     @property
     def radius(self) -> float:
