@@ -33,10 +33,12 @@ from gaitwright.model.robot import Robot
 from gaitwright.navigation.explorer import Explorer
 from gaitwright.navigation.learned_map import LearnedMap
 from gaitwright.navigation.navigator import Navigator
+from gaitwright.navigation.told_anew import rest_of
 from gaitwright.perception.estimated_state import EstimatedState, Sensing
 from gaitwright.perception.fault_words import Fault
 from gaitwright.perception.known_ground import KnownGround
 from gaitwright.perception.seeing import SeeingGround
+from gaitwright.perception.told_things import with_things
 from gaitwright.perception.watch import Watch
 from gaitwright.programmes import Programmed
 from gaitwright.signals import (
@@ -51,6 +53,7 @@ from gaitwright.signals import (
 )
 from gaitwright.skills.chooser import DefaultChooser
 from gaitwright.skills.foothold_guard import FootholdGuard
+from gaitwright.skills.giving_way import GivesWay
 from gaitwright.skills.rule_chooser import RuleChooser
 from gaitwright.stages import Chooser, Controller, Memory, MotionStage, Navigation, Perception
 
@@ -110,12 +113,13 @@ class Brain:
             navigator = Explorer(robot, perception.noise)
         else:
             known = KnownGround.of(scene, robot, sees)
-            perception = known if sensing == "true" else EstimatedState(known, robot, dt)
+            told = known if sensing == "true" else EstimatedState(known, robot, dt)
+            perception = with_things(told, scene, robot)
         return cls(
             robot,
             perception,
             navigator,
-            FootholdGuard(chooser, robot) if sees else chooser,
+            GivesWay(FootholdGuard(chooser, robot) if sees else chooser, robot),
             Coordinator(robot, dt),
             {
                 "numerical": numerical,
@@ -283,13 +287,17 @@ def think(brain: Brain, mind: Mind, measured: Measured) -> tuple[Lap, Mind]:
 
 def plan_and_choose(brain: Brain, mind: Mind, sensed: Sensed, ground: GroundMap) -> tuple[Mind, Memory]:
     """The slower stages: the navigator looks a few times a second, the chooser at every cycle and event."""
-    now, route, looked_at, travelled = sensed.time, mind.route, mind.looked_at, mind.memories.navigator
-    if now - looked_at >= LOOK_EVERY - 1e-9:
+    now, looked_at, travelled = sensed.time, mind.looked_at, mind.memories.navigator
+    route, old, event = mind.route, mind.route, ground.obstacles is not mind.ground.obstacles
+    if event or now - looked_at >= LOOK_EVERY - 1e-9:
         scan = brain.perception.look(ground, sensed) if route.path else None
-        route, travelled = brain.navigator.plan(route, sensed, ground, scan, travelled)
-        looked_at = now
-    old = mind.route
-    event = route is not old and (route.arrived != old.arrived or len(route.path) != len(old.path))
+        if event and route.path:
+            todo = rest_of(mind.mission, route)
+            route, travelled = brain.navigator.set_out(todo, sensed, ground, scan, travelled)
+        else:
+            route, travelled = brain.navigator.plan(route, sensed, ground, scan, travelled)
+        looked_at, event = now, event or bool(ground.moving)
+    event = event or route.arrived != old.arrived or len(route.path) != len(old.path)
     if not event and now - mind.chosen_at < mind.call.gait.period - 1e-9:
         return mind if route is old else mind._replace(route=route, looked_at=looked_at), travelled
     call = brain.chosen(mind.mission, route, sensed, mind.call, ground)

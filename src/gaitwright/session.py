@@ -18,6 +18,7 @@ from gaitwright.locomotion import Brain, Lap, Mind, think
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import heading, rotation
 from gaitwright.perception.fault_words import ends_trip
+from gaitwright.perception.told_things import with_things
 from gaitwright.record.recording import Recorder, Recording
 from gaitwright.record.scene_of import scene_for, scene_scale  # noqa: F401 - found here by all who set up runs
 from gaitwright.signals import Measured, Mission
@@ -200,7 +201,7 @@ class Session:
         ground is told; who sees it finds out."""
         self.simulated().rearrange(scene)
         before = self.brain.perception
-        perception = before.told(scene, self.brain.robot)
+        perception = with_things(before.told(scene, self.brain.robot), scene, self.brain.robot)
         if perception is not before:
             self.brain = replace(self.brain, perception=perception)
             self.give(self.mind.mission)
@@ -239,7 +240,8 @@ def record(
     session: Session, seed: int = 0, scene: str = "", watch: Callable[[Lap], None] | None = None
 ) -> Recording:
     """Steps a session to its end and keeps every lap; an interrupt or a full disk keeps what was recorded."""
-    recorder = Recorder(session.brain.robot, scene, seed, session.plant.dt)
+    movers = getattr(getattr(session.plant, "scene", None), "movers", ())  # a real plant has no scene
+    recorder = Recorder(session.brain.robot, scene, seed, session.plant.dt, movers)
     try:
         for lap in session:
             recorder.add(lap)

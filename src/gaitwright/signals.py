@@ -106,6 +106,17 @@ class Sight(NamedTuple):
     """Rim of what was seen to be free: star-shaped around the eye, anticlockwise; the eye may lie on it."""
 
 
+class Moving(NamedTuple):
+    """A thing that moves, as far as it is known, seen from above."""
+
+    edge: Float[np.ndarray, "n 2"]
+    """Points along what is known of its edge, world [m]."""
+    velocity: tuple[float, float]
+    """World [m/s]."""
+    time: float
+    """When it was there [s]."""
+
+
 class ElevationGrid(NamedTuple):
     """Heights on a grid, as feet and kernels read them (`ground.elevation`); no nodes: nothing is known."""
 
@@ -148,6 +159,8 @@ class GroundMap:
     """Coefficient of friction that feet count on until they slip [-]."""
     sight: Sight | None = None
     """What the newest look showed; `None` in a map that is full from the start, and before any look."""
+    moving: tuple[Moving, ...] = ()
+    """What moves: it is in none of the others, but that feet see it where it is."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -237,6 +250,8 @@ class SkillCall:
     """Whether a rule that stands firm asks for it."""
     ruled: bool = False
     """Whether a rule asks for it at all."""
+    yields: bool = False
+    """Whether it gives way to something that moves: what was wished comes later."""
 
 
 @packed

@@ -111,7 +111,7 @@ class Termination:
             self.fallen(now, lean, over_feet)
             or (None if inside else self.outside(sensed))
             or self.unsupported(now, grounded, command.status)
-            or self.stuck(route, sensed)
+            or self.stuck(route, sensed, call)
         )
         if fault:
             return fault
@@ -151,11 +151,12 @@ class Termination:
             return Ending(f"{status} (since {self.fed_at:.2f} s)")
         return None
 
-    def stuck(self, route: Route, sensed: Sensed) -> Ending | None:
-        """A mission that makes no progress; on another way, since this one is blocked, it begins anew."""
+    def stuck(self, route: Route, sensed: Sensed, call: SkillCall) -> Ending | None:
+        """A mission that makes no progress; it begins anew on another way, since this one is blocked, and
+        after it gave way."""
         if not route.path or route.arrived:
             return None
-        if route.remaining > self.left + ANEW * self.robot.body_length:
+        if call.yields or route.remaining > self.left + ANEW * self.robot.body_length:
             self.nearest = math.inf
         self.left = route.remaining
         if route.remaining < self.nearest - PROGRESS * self.robot.body_length:

@@ -28,8 +28,8 @@ def has_way(scene: Scene, radius: float) -> bool:
     return any(all(room.distance(end) < 1e-9 for end in ends) for room in getattr(free, "geoms", [free]))
 
 
-def test_there_are_ten() -> None:
-    assert len(FAMILIES) == 10 and set(FAMILIES) <= set(BUILDERS)
+def test_there_are_twelve() -> None:
+    assert len(FAMILIES) == 12 and set(FAMILIES) <= set(BUILDERS)
 
 
 @pytest.mark.parametrize("name", FAMILIES)
@@ -88,7 +88,7 @@ def test_harder_is_steeper(name: str, steepest: tuple) -> None:
 def test_every_seed_is_another(name: str) -> None:
     one, other = load_scene(name, 1), load_scene(name, 2)
     x, y = np.meshgrid(np.linspace(-1.0, 9.0, 200), np.linspace(-3.0, 3.0, 120))
-    assert np.any(np.asarray(one.height(x, y)) != other.height(x, y))
+    assert np.any(np.asarray(one.at(0.0).height(x, y)) != other.at(0.0).height(x, y))
 
 
 def test_streets_run_straight_between_their_junctions() -> None:

@@ -1,5 +1,6 @@
 """Scenes from above: everything that stands in a scene is drawn, in one picture for many."""
 
+from itertools import pairwise
 from pathlib import Path
 
 import matplotlib.image
@@ -9,11 +10,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
+from gaitwright.ground.moving import Mover
 from gaitwright.ground.outlines import outline_of
 from gaitwright.ground.patches import Patch
 from gaitwright.ground.scene import Scene, load_scene
-from gaitwright.ground.terrain import Flat
+from gaitwright.ground.terrain import Box, Flat
 from gaitwright.pictures.ground import HIGH, PIT
+from gaitwright.pictures.moving import words
 from gaitwright.pictures.scenes import draw_scene, scenes_picture, view
 
 STEP = 0.107
@@ -58,6 +61,29 @@ def test_of_wide_ground_the_part_around_the_start_is_shown() -> None:
     assert x_min < 0.0 < x_max and x_max - x_min < 20.0 and y_max - y_min < 20.0
     blocks = load_scene("blocks")
     assert view(blocks) == (blocks.bounds[0], blocks.bounds[2], blocks.bounds[1], blocks.bounds[3])
+
+
+def test_what_moves_is_drawn_where_it_is_first_with_arrows_along_its_way() -> None:
+    scene = load_scene("crossing", 2)
+    ax = drawn(scene)
+    moving = [patch for patch in polygons(ax) if patch.get_linestyle() == "--"]
+    wanted = [outline_of(mover.solid.corners()) for mover in scene.movers]
+    assert [outline_of(patch.get_xy()[:-1]) for patch in moving] == wanted
+    ways = [line.get_xydata() for line in ax.lines]
+    stretches = [pair for mover in scene.movers for pair in pairwise(mover.path)]
+    assert len(ways) == len(stretches)
+    for way, stretch in zip(ways, stretches, strict=True):
+        np.testing.assert_allclose(way, stretch)
+    arrows = [text for text in ax.texts if getattr(text, "arrow_patch", None) is not None]
+    assert len(arrows) == len(stretches) + 1, "and that of the start"
+    assert any("m/s" in text.get_text() for text in ax.texts)
+
+
+def test_it_is_written_when_a_thing_is_there_and_how_fast_it_goes() -> None:
+    box = Box(1.0, 0.0, 0.0, 0.4, 0.4, 0.3)
+    assert words(Mover(box, ((2.0, 0.0),), 0.5, begins=2.0)) == "0.5 m/s, from 2 s"
+    assert words(Mover(box, appears=3.0)) == "there from 3 s"
+    assert words(Mover(box, ((2.0, 0.0),), 0.25, appears=3.0, vanishes=8.0)) == "0.25 m/s, there 3 to 8 s"
 
 
 def test_more_scenes_make_a_taller_picture(tmp_path: Path) -> None:

@@ -12,7 +12,8 @@ from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.ground.terrain import Box, Flat, Slope
 from gaitwright.model.camera import Camera
 from gaitwright.numerics.geometry import rotation
-from gaitwright.plant.eyes import MOST_CELLS, Eyes, facets_of
+from gaitwright.plant.eyes import Eyes
+from gaitwright.plant.facets import MOST_CELLS, facets_of
 from gaitwright.plant.mujoco.depth import depth_frame
 from gaitwright.plant.mujoco.simulation import MujocoPlant
 from oracles import robot_called

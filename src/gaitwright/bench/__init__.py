@@ -24,7 +24,7 @@ GROUPS = {
         "balance",
         "newcomers",
     ),
-    "unknown": ("worlds", "maps", "eyes", "seeing"),
+    "unknown": ("worlds", "maps", "eyes", "seeing", "moving"),
     "outside": ("strangers", "fuzz", "faults"),
 }
 """Groups of claims, each claim the name of a module here, in the order in which they are measured."""

@@ -1,9 +1,11 @@
 """Layout: a ground with what stands on it, as the builders of scenes hand it over."""
 
+import math
 from dataclasses import fields, replace
 from typing import Any, NamedTuple
 
 from gaitwright.ground.holes import Hole, Pitted
+from gaitwright.ground.moving import Mover
 from gaitwright.ground.patches import Patch
 from gaitwright.ground.terrain import Box, HeightField, Solid, Surface
 
@@ -27,6 +29,8 @@ class Layout(NamedTuple):
     patches: tuple[Patch, ...] = ()
     goal: tuple[float, float] | None = None
     """Where a mission leads to [m]; left free, as the start is."""
+    movers: tuple[Mover, ...] = ()
+    """What moves, appears or vanishes."""
 
 
 NO_LENGTHS = ("yaw", "top", "friction")
@@ -34,7 +38,7 @@ NO_LENGTHS = ("yaw", "top", "friction")
 
 
 def scaled(layout: Layout, k: float) -> Layout:
-    """A layout with every length multiplied."""
+    """A layout with every length multiplied; what moves goes as fast for its size (equal Froude numbers)."""
     if k == 1.0:
         return layout
     surface = layout.surface
@@ -52,7 +56,14 @@ def scaled(layout: Layout, k: float) -> Layout:
         holes=tuple(_scaled(hole, k) for hole in layout.holes),
         patches=tuple(_scaled(patch, k) for patch in layout.patches),
         goal=layout.goal and (k * layout.goal[0], k * layout.goal[1]),
+        movers=tuple(_scaled_mover(mover, k) for mover in layout.movers),
     )
+
+
+def _scaled_mover(mover: Mover, k: float) -> Mover:
+    times = {name: math.sqrt(k) * getattr(mover, name) for name in ("speed", "begins", "appears", "vanishes")}
+    along = tuple((k * x, k * y) for x, y in mover.along)
+    return replace(mover, solid=_scaled(mover.solid, k), along=along, **times)
 
 
 def _scaled(part: Any, k: float) -> Any:

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 
-from gaitwright.ground import courses, landscapes, towns
+from gaitwright.ground import courses, landscapes, towns, traffic
 from gaitwright.ground.layout import Bounds, Layout
 from gaitwright.ground.terrain import Box, Flat, HeightField, Slope, smooth_step
 
@@ -243,6 +243,8 @@ BUILDERS: dict[str, Callable[[float, float, np.random.Generator], Layout]] = {
     "rooms": towns.rooms,
     "maze": towns.maze,
     "bugtrap": towns.bugtrap,
+    "crossing": traffic.crossing,
+    "plaza": traffic.plaza,
     "mixed": courses.mixed,
 }
 """One builder per name of `scenes_list.OFFERS`."""

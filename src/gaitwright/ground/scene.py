@@ -1,6 +1,6 @@
 """A scene: the ground, what stands on it, and where the robot starts (row V1)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import final
 
@@ -11,6 +11,7 @@ from gaitwright.errors import WrongUse
 from gaitwright.ground import height_map, layouts, scene_file, scenes_list
 from gaitwright.ground.holes import Hole
 from gaitwright.ground.layout import FRICTION
+from gaitwright.ground.moving import Mover
 from gaitwright.ground.patches import Patch, sorted_patches
 from gaitwright.ground.relief import Relief
 from gaitwright.ground.terrain import Box, Number, Solid, Surface, upward
@@ -47,23 +48,45 @@ class Scene(Surface):
     """Where a mission through it leads to [m], where it is made for one."""
     notes: tuple[str, ...] = ()
     """What was mended in its file, in sentences."""
+    movers: tuple[Mover, ...] = ()
+    """What moves, appears or vanishes: it stands in none of the solids, but in those of the scene `at` a
+    time."""
+    things: tuple[Solid, ...] = ()
+    """The moving things where they are, in a scene `at` a time."""
 
     @property
     def solids(self) -> tuple[Solid, ...]:
-        """All that stands on the ground: the boxes, then the shapes."""
-        return (*self.boxes, *self.shapes)
+        """All that stands on the ground: the boxes, then the shapes, then what is there at this time."""
+        return (*self.boxes, *self.shapes, *self.things)
+
+    def at(self, time: float) -> "Scene":
+        """The scene at a time [s], with its moving things where they are; itself where there are none."""
+        if not self.movers:
+            return self
+        there = (mover.at(time) for mover in self.movers)
+        return self.with_things(tuple(thing for thing in there if thing is not None))
+
+    def with_things(self, things: tuple[Solid, ...]) -> "Scene":
+        """The scene with things in the place of its movers."""
+        now = replace(self, movers=(), things=things)
+        vars(now)["_relief"] = self._relief  # what stands there all the time is sorted once
+        return now
 
     def height(self, x: Number, y: Number) -> Number:
         """Height of the highest thing at a place, surface or solid [m]."""
-        ground = self.surface.height(x, y)
-        return np.maximum(ground, self._relief.tops(x, y)) if self._relief else ground
+        height = self.surface.height(x, y)
+        for relief in self._reliefs:
+            height = np.maximum(height, relief.tops(x, y))
+        return height
 
     def normal(self, x: Number, y: Number) -> Float[np.ndarray, "... 3"]:
         """Unit normal of what is there, pointing up: the surface's, or that of the top of a solid."""
         normal = self.surface.normal(x, y)
-        if not self._relief:
+        if not self._reliefs:
             return normal
-        top = self._relief.look(x, y)
+        top, *others = (relief.look(x, y) for relief in self._reliefs)
+        for other in others:
+            top = np.where(other[..., :1] > top[..., :1], other, top)
         on_solid = np.asarray(top[..., 0] >= self.surface.height(x, y))
         of_solid = upward(top[..., 1], top[..., 2]) + 0.0  # a level top has no negative zeros
         return np.where(on_solid[..., None], of_solid, normal)
@@ -100,9 +123,19 @@ class Scene(Surface):
         is_floor = sum(box.lx * box.ly for box in low) > 0.5 * (x_max - x_min) * (y_max - y_min)
         return set(low) if is_floor else set()
 
+    @property
+    def _reliefs(self) -> tuple[Relief, ...]:
+        return tuple(relief for relief in (self._relief, self._things) if relief is not None)
+
     @cached_property
     def _relief(self) -> Relief | None:
-        solids = self.solids
+        return self._sorted((*self.boxes, *self.shapes))
+
+    @cached_property
+    def _things(self) -> Relief | None:
+        return self._sorted(self.things)
+
+    def _sorted(self, solids: tuple[Solid, ...]) -> Relief | None:
         return Relief.of(solids, [self.level(solid) for solid in solids]) if solids else None
 
     @cached_property

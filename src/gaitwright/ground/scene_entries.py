@@ -6,11 +6,26 @@ An *outline* is a list of corners, or a circle or a rectangle by its numbers.
 from pathlib import Path
 from typing import Annotated
 
-import msgspec
 import numpy as np
-from msgspec import Meta
+from msgspec import Meta, field
 
+from gaitwright.ground.entry_types import (
+    MAX_CONTROLS,
+    MAX_NODES,
+    Angle,
+    Base,
+    Controls,
+    Corners,
+    Incline,
+    Length,
+    Place,
+    Row,
+    Size,
+    Spacing,
+    Strict,
+)
 from gaitwright.ground.height_map import height_map
+from gaitwright.ground.moving_entries import Timed
 from gaitwright.ground.outlines import Outline, mended, outline_of, regular
 from gaitwright.ground.solids import Cylinder, Prism, Pyramid, Sphere, Wedge
 from gaitwright.ground.splines import fineness, spline_field
@@ -18,32 +33,11 @@ from gaitwright.ground.terrain import Box, Flat, HeightField, Slope, Solid, Surf
 
 MAX_BOXES = 2000
 MAX_HOLES = 200
-MAX_CORNERS = 200
-"""Of one outline."""
 MAX_NAME = 80
-MAX_NODES = 1000
-"""Of a side of a grid of heights."""
-MAX_CONTROLS = 200
-"""Control points along a side of a net."""
 MOST_SAMPLES = 4_000_000
 """Nodes that a net is sampled at: 16 MB in the physics."""
 ROUND = 24
 """Corners of the polygon that a circle is taken for."""
-
-Place = Annotated[float, Meta(ge=-1000.0, le=1000.0)]
-Length = Annotated[float, Meta(gt=0.0, le=1000.0)]
-Size = Annotated[float, Meta(ge=0.001, le=1000.0)]
-"""Nothing that robots meet is smaller than a millimetre [m]."""
-Angle = Annotated[float, Meta(ge=-7.0, le=7.0)]
-Incline = Annotated[float, Meta(ge=-1.0, le=1.0)]
-Base = Annotated[float, Meta(ge=0.0, le=1000.0)]
-Spacing = Annotated[float, Meta(ge=0.001, le=100.0)]
-Row = Annotated[list[Place], Meta(min_length=2, max_length=MAX_NODES)]
-Controls = Annotated[list[Place], Meta(min_length=2, max_length=MAX_CONTROLS)]
-
-
-class Strict(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Refuses what it does not know."""
 
 
 # --- the surface -----------------------------------------------------------------------------------
@@ -163,7 +157,6 @@ class RectangleEntry(Strict, frozen=True, tag="rectangle"):
     yaw: Angle = 0.0
 
 
-Corners = Annotated[list[tuple[Place, Place]], Meta(min_length=1, max_length=MAX_CORNERS)]
 OutlineEntry = Corners | CircleEntry | RectangleEntry
 
 
@@ -187,7 +180,7 @@ class PatchEntry(Strict, frozen=True):
 
 
 # --- what stands there -----------------------------------------------------------------------------
-class BoxEntry(Strict, frozen=True):
+class BoxEntry(Timed, frozen=True):
     x: Place
     y: Place
     lx: Length
@@ -196,8 +189,11 @@ class BoxEntry(Strict, frozen=True):
     yaw: Angle = 0.0
     base: Base = 0.0
 
+    def solid(self) -> tuple[Solid, str]:
+        return Box(**self.numbers), ""
 
-class Rectangular(Strict, frozen=True):
+
+class Rectangular(Timed, frozen=True):
     x: Place
     y: Place
     lx: Size
@@ -209,22 +205,22 @@ class Rectangular(Strict, frozen=True):
 
 class BoxShape(Rectangular, frozen=True, tag="box"):
     def solid(self) -> tuple[Solid, str]:
-        return Box(**msgspec.structs.asdict(self)), ""
+        return Box(**self.numbers), ""
 
 
 class WedgeShape(Rectangular, frozen=True, tag="wedge"):
     def solid(self) -> tuple[Solid, str]:
-        return Wedge(**msgspec.structs.asdict(self)), ""
+        return Wedge(**self.numbers), ""
 
 
 class PyramidShape(Rectangular, frozen=True, tag="pyramid"):
     top: Annotated[float, Meta(ge=0.0, le=0.95)] = 0.0
 
     def solid(self) -> tuple[Solid, str]:
-        return Pyramid(**msgspec.structs.asdict(self)), ""
+        return Pyramid(**self.numbers), ""
 
 
-class CylinderShape(Strict, frozen=True, tag="cylinder"):
+class CylinderShape(Timed, frozen=True, tag="cylinder"):
     x: Place
     y: Place
     radius: Size
@@ -232,10 +228,10 @@ class CylinderShape(Strict, frozen=True, tag="cylinder"):
     base: Base = 0.0
 
     def solid(self) -> tuple[Solid, str]:
-        return Cylinder(**msgspec.structs.asdict(self)), ""
+        return Cylinder(**self.numbers), ""
 
 
-class SphereShape(Strict, frozen=True, tag="sphere"):
+class SphereShape(Timed, frozen=True, tag="sphere"):
     x: Place
     y: Place
     radius: Size
@@ -251,7 +247,7 @@ class SphereShape(Strict, frozen=True, tag="sphere"):
         return Sphere(self.x, self.y, self.radius, height, self.base), ""
 
 
-class PrismShape(Strict, frozen=True, tag="prism"):
+class PrismShape(Timed, frozen=True, tag="prism"):
     outline: OutlineEntry
     height: Size
     base: Base = 0.0
@@ -267,10 +263,10 @@ ShapeEntry = BoxShape | CylinderShape | PyramidShape | WedgeShape | SphereShape 
 class SceneEntry(Strict, frozen=True):
     name: Annotated[str, Meta(max_length=MAX_NAME)] = ""
     surface: SurfaceEntry = FlatEntry()
-    boxes: Annotated[list[BoxEntry], Meta(max_length=MAX_BOXES)] = []
-    shapes: Annotated[list[ShapeEntry], Meta(max_length=MAX_BOXES)] = []
-    holes: Annotated[list[HoleEntry], Meta(max_length=MAX_HOLES)] = []
-    patches: Annotated[list[PatchEntry], Meta(max_length=MAX_HOLES)] = []
+    boxes: Annotated[list[BoxEntry], Meta(max_length=MAX_BOXES)] = field(default_factory=list)
+    shapes: Annotated[list[ShapeEntry], Meta(max_length=MAX_BOXES)] = field(default_factory=list)
+    holes: Annotated[list[HoleEntry], Meta(max_length=MAX_HOLES)] = field(default_factory=list)
+    patches: Annotated[list[PatchEntry], Meta(max_length=MAX_HOLES)] = field(default_factory=list)
     bounds: tuple[Place, Place, Place, Place] = (-4.0, -4.0, 10.0, 4.0)
     start: tuple[Place, Place, Angle] = (0.0, 0.0, 0.0)
     goal: tuple[Place, Place] | None = None

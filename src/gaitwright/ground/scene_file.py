@@ -3,7 +3,8 @@
 ```json
 {"surface": {"type": "slope", "pitch": 0.1},
  "boxes": [{"x": 2, "y": 0, "yaw": 0.3, "lx": 0.5, "ly": 0.4, "height": 0.3}],
- "shapes": [{"type": "cylinder", "x": 4, "y": 1, "radius": 0.2, "height": 0.8}],
+ "shapes": [{"type": "cylinder", "x": 4, "y": 1, "radius": 0.2, "height": 0.8,
+             "moves": {"along": [[4, -1]], "speed": 0.4, "loop": true}}],
  "holes": [{"outline": [[5, -1], [6, -1], [6, 1]], "depth": 0.3}],
  "bounds": [-4, -4, 10, 4], "start": [0, 0, 0], "friction": 0.8}
 ```
@@ -13,6 +14,7 @@ docs/scenes.md tells every entry; `scene_entries` reads them.
 import json
 import re
 from collections.abc import Callable, Iterable
+from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -22,10 +24,12 @@ import shapely
 from gaitwright.errors import BadFile, printable, short
 from gaitwright.files import content_of, json_of
 from gaitwright.ground.holes import Hole, dug
+from gaitwright.ground.moving import Mover
+from gaitwright.ground.moving_entries import MOST_MOVERS, outside
 from gaitwright.ground.outlines import Outline
 from gaitwright.ground.patches import Patch
-from gaitwright.ground.scene_entries import MAX_NAME, SceneEntry, read_outline
-from gaitwright.ground.terrain import Box, HeightField
+from gaitwright.ground.scene_entries import MAX_NAME, BoxEntry, SceneEntry, ShapeEntry, read_outline
+from gaitwright.ground.terrain import HeightField
 
 MAX_BYTES = 5_000_000
 MOST_CORNERS = 4000
@@ -48,7 +52,11 @@ def read(path: str) -> dict[str, Any]:
     _check(asked, entry)
     _check_small(asked, entry)
     notes: list[str] = []
-    shapes = _made(asked, "shapes", (shape.solid for shape in entry.shapes), notes)
+    boxes, going = _told_apart(asked, "boxes", entry, notes)
+    shapes, others = _told_apart(asked, "shapes", entry, notes)
+    movers = (*going, *others)
+    if len(movers) > MOST_MOVERS:
+        raise BadFile(f"{asked}: {len(movers)} things move, appear or vanish, and {MOST_MOVERS} may")
     holes = [
         Hole(outline, hole.depth)
         for outline, hole in zip(_outlines(asked, "holes", entry.holes, notes), entry.holes, strict=True)
@@ -63,8 +71,9 @@ def read(path: str) -> dict[str, Any]:
     return {
         "name": printable(entry.name or Path(path).stem)[:MAX_NAME],
         "surface": dug(surface, holes),
-        "boxes": tuple(Box(**msgspec.structs.asdict(box)) for box in entry.boxes),
-        "shapes": tuple(shapes),
+        "boxes": boxes,
+        "shapes": shapes,
+        "movers": movers,
         "holes": tuple(holes),
         "patches": tuple(Patch(outline, patch.friction) for outline, patch in patches),
         "bounds": entry.bounds,
@@ -73,6 +82,24 @@ def read(path: str) -> dict[str, Any]:
         "friction": entry.friction,
         "notes": tuple(notes),
     }
+
+
+def _told_apart(
+    asked: str, field: str, entry: SceneEntry, notes: list[str]
+) -> tuple[tuple[Any, ...], tuple[Mover, ...]]:
+    """What stands there all the time, and what moves, appears or vanishes. Raises `BadFile`."""
+    entries: list[BoxEntry] | list[ShapeEntry] = getattr(entry, field)
+    solids = _made(asked, field, (one.solid for one in entries), notes)
+    still, movers = [], []
+    for k, (one, solid) in enumerate(zip(entries, solids, strict=True)):
+        if one.is_still:
+            still.append(solid)
+            continue
+        mover = _tried(f"{asked}: {field}[{k}]", partial(one.mover, solid), between=" ")
+        if said := outside(mover, entry.bounds):
+            raise BadFile(f"{asked}: {field}[{k}].{said}")
+        movers.append(mover)
+    return tuple(still), tuple(movers)
 
 
 def _made(

@@ -46,6 +46,8 @@ OFFERS = {
     "rooms": Offer("rooms with doors; goal (12, 0)", *DIFFICULTY),
     "maze": Offer("a maze; goal (12, 0)", *DIFFICULTY),
     "bugtrap": Offer("a bay in the straight way, out of which one must turn back; goal (12, 0)", *DIFFICULTY),
+    "crossing": Offer("things that go to and fro across the way to the goal (12, 0)", *DIFFICULTY),
+    "plaza": Offer("things that wander about, and some that come and go; goal (12, 0)", *DIFFICULTY),
     "mixed": Offer("blocks, holes, a ramp, steps and rough ground; goal (15, 0)", *DIFFICULTY),
 }
 

@@ -29,6 +29,10 @@ SUPPOSED = 0.1
 """Standard deviation, in body heights, of ground that is only supposed: any look replaces it."""
 LOADED = 0.1
 """A foot that carries this share of the weight rests on the ground; less is a touch."""
+ASIDE = 1.2
+"""What moves reaches so far beyond the edge that is seen of it, in body heights."""
+UNKNOWN = (np.nan, np.inf, np.inf, -np.inf, -np.inf)
+"""A cell of which nothing is known."""
 AROUND = 1.0
 """The ground that feet stand on at the start is supposed to go on so far beyond them, in body heights: up to
 what the camera sees first."""
@@ -51,7 +55,7 @@ class ElevationMap:
     def for_robot(cls, robot: Robot, keep: float = math.inf) -> "ElevationMap":
         """Nothing is known yet; window and cells as the robot's size asks."""
         cells = np.empty((CELLS, CELLS, 5), np.float32)
-        cells[:] = (np.nan, np.inf, np.inf, -np.inf, -np.inf)
+        cells[:] = UNKNOWN
         first = (-CELLS // 2, -CELLS // 2)
         return cls(robot.height, first, cells, keep)
 
@@ -151,6 +155,35 @@ def felt(
     """
     cells = before.cells.copy()
     feel(cells, before.first, before.spacing, places, radius, FELT**2, time)
+    return replace(before, cells=cells)
+
+
+def without(before: ElevationMap, edge: Float[np.ndarray, "n 2"], step: float, time: float) -> ElevationMap:
+    """The map without what was seen at a time [s] to rise by more than a step [m] about an edge, world [m].
+
+    It is something that moves: there the ground is supposed to be as it was seen before, or is unknown.
+    """
+    around, n = ASIDE * before.height, before.n
+    lines = []
+    for axis, first in zip((1, 0), before.first, strict=True):
+        low, high = edge[:, axis].min() - around, edge[:, axis].max() + around
+        begin, end = math.floor(low / before.spacing), math.ceil(high / before.spacing)
+        lines.append(np.arange(max(begin, first), min(end, first + n - 1) + 1))
+    rows, columns = lines
+    if not (len(rows) and len(columns)):
+        return before
+    where = np.ix_(rows % n, columns % n)
+    found = before.cells[where]
+    places = np.stack(np.meshgrid(columns, rows), axis=-1)[..., None, :] * before.spacing
+    near = (np.hypot(*np.moveaxis(places - edge, -1, 0)) < around).any(axis=-1)
+    high = found[..., HEIGHT] > found[..., LOW][near].min(initial=np.inf) + step
+    moves = near & high & (found[..., SEEN] >= np.float32(time))
+    ground = moves & (found[..., LOW] < found[..., HEIGHT] - step)
+    found[moves & ~ground] = UNKNOWN
+    found[ground, HEIGHT] = found[ground, HIGH] = found[ground, LOW]
+    found[ground, VARIANCE] = (SUPPOSED * before.height) ** 2
+    cells = before.cells.copy()
+    cells[where] = found
     return replace(before, cells=cells)
 
 

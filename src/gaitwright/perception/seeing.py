@@ -13,11 +13,20 @@ from gaitwright.ground.scene import Scene
 from gaitwright.model.camera import Camera
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import heading, rotation
-from gaitwright.perception.elevation_map import ElevationMap, carrying, felt, fused, lowest_points, standing
+from gaitwright.perception.elevation_map import (
+    ElevationMap,
+    carrying,
+    felt,
+    fused,
+    lowest_points,
+    standing,
+    without,
+)
 from gaitwright.perception.estimated_state import EstimatedState
 from gaitwright.perception.known_ground import KnownGround
 from gaitwright.perception.scanner import Scanner
 from gaitwright.perception.seen_ground import SeenElevation, footholds_of
+from gaitwright.perception.seen_moving import Watched, told_apart
 from gaitwright.perception.walls import sight_of
 from gaitwright.signals import DepthFrame, GroundMap, Measured, Scan, Sensed, Sight
 from gaitwright.stages import Memory
@@ -30,6 +39,8 @@ class Looked(NamedTuple):
     ground: GroundMap
     state: Memory = None
     """Of who estimates the state."""
+    watched: Watched = Watched()
+    """What tells that something moves."""
 
 
 @dataclass(frozen=True)
@@ -43,6 +54,8 @@ class SeeingGround:
     scanner: Scanner
     state: EstimatedState | None = None
     """Who estimates the state; `None`: it is as measured."""
+    apart: bool = True
+    """Whether what moves is told from what stands; else all that is seen stands where it is."""
 
     @classmethod
     def of(
@@ -72,13 +85,19 @@ class SeeingGround:
         if memory is not None and measured.frame is None:
             return sensed, memory.ground, memory._replace(state=state)
         seen = self.before(sensed) if memory is None else memory.seen
-        sight = None
+        sight, watched = None, Watched() if memory is None else memory.watched
         if measured.frame is not None:
             seen, sight = self.looked(seen, sensed, measured.frame)
+            if self.apart:
+                time, height = measured.frame.time, self.robot.height
+                sight, watched = told_apart(sight, time, watched, height, self.noise)
+                for one in watched.moving:
+                    seen = without(seen, one.edge, self.ground.step, time) if one.time == time else seen
+        footholds, moving = footholds_of(seen), watched.moving
         ground = replace(
-            self.ground, elevation=SeenElevation(seen), footholds=footholds_of(seen), sight=sight
+            self.ground, elevation=SeenElevation(seen), footholds=footholds, sight=sight, moving=moving
         )
-        return sensed, ground, Looked(seen, ground, state)
+        return sensed, ground, Looked(seen, ground, state, watched)
 
     def before(self, sensed: Sensed) -> ElevationMap:
         """The map of a robot that has not looked yet: it stands."""

@@ -15,6 +15,7 @@ from gaitwright.ground.scene import Scene
 from gaitwright.model.kinematics import feet
 from gaitwright.numerics.geometry import rotation
 from gaitwright.pictures.ground import HIGH, LOW_EDGE, PIT, draw_things
+from gaitwright.pictures.moving import LOOK, draw_moving
 from gaitwright.pictures.style import EARTH, INK, MAP, SKILLS, dress
 from gaitwright.pictures.thin import shown
 from gaitwright.record.metrics import heading_over_time, stretches, touchdowns
@@ -57,6 +58,8 @@ def draw_map(ax: Axes, r: Recording, scene: Scene) -> None:
         handles.append(Patch(facecolor="#d9c9a8", edgecolor=LOW_EDGE, label="low: stepped on"))
     if scene.holes:
         handles.append(Patch(facecolor=PIT, label="hole"))
+    if scene.movers:
+        handles.append(Patch(**LOOK, label="moves"))
     if scene.obstacles(r.robot.step_limit):
         handles.append(Patch(**HIGH, label="high: walked around"))
     ax.legend(
@@ -91,6 +94,7 @@ def draw_ground(ax: Axes, r: Recording, scene: Scene, bounds: tuple[float, float
         bar.ax.tick_params(labelsize=9, colors=INK, length=2)
         bar.outline.set_visible(False)
     draw_things(ax, scene, scene.obstacles(r.robot.step_limit))
+    draw_moving(ax, scene)
 
 
 def draw_footprints(ax: Axes, r: Recording) -> None:

@@ -15,6 +15,7 @@ from gaitwright.ground.scene import Scene
 from gaitwright.ground.terrain import Flat, Slope
 from gaitwright.pictures import Sheet
 from gaitwright.pictures.ground import HIGH, LOW_EDGE, PIT, draw_relief, draw_things
+from gaitwright.pictures.moving import LOOK, draw_moving
 from gaitwright.pictures.style import INK, LEFT, WIDTH, dress
 
 ACROSS = 3
@@ -51,6 +52,7 @@ def draw_scene(ax: Axes, scene: Scene, step: float) -> None:
     x_min, x_max, y_min, y_max = extent = view(scene)
     draw_relief(ax, scene, extent)
     draw_things(ax, scene, scene.obstacles(step))
+    draw_moving(ax, scene)
     x, y, yaw = scene.start
     reach = 0.05 * max(x_max - x_min, y_max - y_min)
     tip = (x + reach * math.cos(yaw), y + reach * math.sin(yaw))
@@ -68,7 +70,7 @@ def draw_scene(ax: Axes, scene: Scene, step: float) -> None:
 def view(scene: Scene) -> tuple[float, float, float, float]:
     """What is shown of a scene, x_min, x_max, y_min, y_max [m]: all, but of an empty plane."""
     x_min, y_min, x_max, y_max = scene.bounds
-    if scene.solids or scene.goal or not isinstance(scene.surface, Flat | Slope):
+    if scene.solids or scene.movers or scene.goal or not isinstance(scene.surface, Flat | Slope):
         return x_min, x_max, y_min, y_max
     x, y, half = *scene.start[:2], WIDEST / 2
     return max(x_min, x - half), min(x_max, x + half), max(y_min, y - half / 2), min(y_max, y + half / 2)
@@ -96,6 +98,8 @@ def _head(sheet: Sheet, scenes: Sequence[Scene], step: float) -> None:
         Patch(**HIGH, label="walked around"),
         Patch(facecolor=PIT, label="hole"),
     ]
+    if any(scene.movers for scene in scenes):
+        handles.append(Patch(**LOOK, label="moves"))
     sheet.figure.legend(
         handles=handles,
         loc="upper right",

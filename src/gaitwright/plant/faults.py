@@ -94,6 +94,11 @@ class FaultyPlant:
         """The last command."""
         self.begin(0)
 
+    @property
+    def scene(self) -> Scene:
+        """Where the robot is."""
+        return self.plant.scene
+
     def begin(self, seed: int) -> None:
         """Draws what is drawn once, and forgets what was."""
         self.random = np.random.default_rng([seed, 2])

@@ -45,6 +45,8 @@ class KinematicPlant:
     has_mechanics: ClassVar[bool] = False
     """Motors move nothing here: nobody can be lowered, and no motor be watched."""
     pose: Pose = field(init=False, repr=False)
+    ground: Scene = field(init=False, repr=False)
+    """The scene as it is now."""
     ticks: int = field(init=False, default=0)
 
     def __post_init__(self) -> None:
@@ -53,6 +55,7 @@ class KinematicPlant:
     def reset(self, seed: int = 0, vary: bool = True) -> Measured:
         """The robot on its feet at the scene's start, varied by `seed` where asked (`start_of`)."""
         start = start_of(self.robot, self.scene, seed, vary)
+        self.ground = self.scene.at(0.0)
         self.pose, self.ticks = Pose(start.position_w, start.rotation_wb, start.q), 0
         self.velocity = np.zeros(3)
         return self.sense(self.pose)
@@ -63,6 +66,8 @@ class KinematicPlant:
         Raises `WrongUse` for torques alone: there is nothing here that they could move.
         """
         before, asked = self.pose, command.posture
+        self.ticks += 1
+        self.ground = self.scene.at(self.ticks * self.dt)
         if asked is not None:
             self.pose = self.placed(asked)
         elif command.tau.any():
@@ -70,7 +75,6 @@ class KinematicPlant:
                 "plant kinematic has no mechanics that torques could move; drivers kinematic and programmed "
                 "say where the robot goes, other drivers need plant mujoco or armstrong"
             )
-        self.ticks += 1
         return self.sense(before)
 
     def placed(self, asked: Posture) -> Pose:
@@ -94,7 +98,7 @@ class KinematicPlant:
 
     def gaps(self, feet_w: Float[np.ndarray, "legs 3"]) -> Float[np.ndarray, "legs"]:
         """How far the lowest point of each foot is over the ground below its centre [m]."""
-        ground = np.asarray(self.scene.height(feet_w[:, 0], feet_w[:, 1]))
+        ground = np.asarray(self.ground.height(feet_w[:, 0], feet_w[:, 1]))
         return feet_w[:, 2] - self.robot.foot_radius - ground
 
     def push(self, force_w: tuple[float, float, float]) -> None:
@@ -105,7 +109,7 @@ class KinematicPlant:
 
     def rearrange(self, scene: Scene) -> None:
         """Another arrangement of the world from now on; the robot stays as it is."""
-        self.scene = scene
+        self.scene, self.ground = scene, scene.at(self.ticks * self.dt)
 
     def sense(self, before: Pose) -> Measured:
         """The state now; velocities are what has moved since `before`, one control period ago.

@@ -22,6 +22,11 @@ class SeeingPlant:
         self.eyes = Eyes(camera, scene)
         self.tick = 0
 
+    @property
+    def scene(self) -> Scene:
+        """Where it looks."""
+        return self.eyes.scene
+
     def reset(self, seed: int = 0, vary: bool = True) -> Measured:
         """The robot at its start, with its first look."""
         self.eyes.seed, self.tick = seed, 0

@@ -9,6 +9,8 @@ import numpy as np
 from msgspec import Meta
 
 from gaitwright.errors import printable
+from gaitwright.ground.moving_entries import MOST_MOVERS
+from gaitwright.ground.scene_entries import ShapeEntry
 from gaitwright.model.robot import Robot, robot_of
 from gaitwright.perception.fault_words import Fault
 from gaitwright.record.channels import MEMORY, MOST_MEMORIES, SITUATION, Held, always, columns_of
@@ -63,6 +65,7 @@ class Header(msgspec.Struct, frozen=True):
     faults: Annotated[tuple[Noticed, ...], Meta(max_length=100)] = ()
     memories: Annotated[tuple[Facts, ...], Meta(max_length=MOST_MEMORIES)] = ()
     trip: Annotated[int, Meta(ge=1)] | None = None
+    movers: Annotated[tuple[ShapeEntry, ...], Meta(max_length=MOST_MOVERS)] = ()
 
 
 def header_of(content: bytes) -> tuple[Robot, dict[str, Any]]:
@@ -76,6 +79,7 @@ def header_of(content: bytes) -> tuple[Robot, dict[str, Any]]:
         "drivers": tuple(map(printable, entry.drivers)),
         "memories": tuple(map(held, entry.memories)),
         "faults": tuple(noticed.fault for noticed in entry.faults),
+        "movers": tuple(thing.mover(thing.solid()[0]) for thing in entry.movers),
     }
     robot = robot_of(dict(entry.robot))
     fault = next(faults_of(robot), None)

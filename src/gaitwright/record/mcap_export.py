@@ -2,7 +2,7 @@
 
 Topics: `/joint_states` (sensor_msgs/JointState: angles, rates, torques), `/tf` (tf2_msgs/TFMessage: world →
 base → the links of every leg), `/tf_static` (their feet), `/robot_description` (std_msgs/String: a URDF with
-these links and joints), `/gaitwright/scene` (foxglove.SceneUpdate: ground, boxes and the way),
+these links and joints), `/gaitwright/scene` (foxglove.SceneUpdate: ground, boxes, the way, what moves),
 `/gaitwright/changes` (JSON: skill and driver, whenever one changes), `/gaitwright/scan` (JSON: the ground
 ahead, whenever it looks different). Needs the extra `record`.
 """
@@ -10,7 +10,7 @@ ahead, whenever it looks different). Needs the extra `record`.
 import json
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +19,7 @@ from mcap_ros2.writer import Writer
 
 from gaitwright.files import fitting, whole
 from gaitwright.ground.scene import Scene
+from gaitwright.ground.terrain import Flat
 from gaitwright.model.robot import Robot
 from gaitwright.model.urdf import Names, write_urdf
 from gaitwright.numerics.geometry import quaternion_of
@@ -28,11 +29,13 @@ from gaitwright.record.metrics import stretches
 from gaitwright.record.recording import Recording
 from gaitwright.record.rows import parts
 from gaitwright.record.scene_of import scene_of
-from gaitwright.record.scenery import SCHEMA, scene_update, way_update
+from gaitwright.record.scenery import SCHEMA, scene_update, things_update, way_update
 from gaitwright.signals import Scan
 
 RATE = 100.0
 """Messages per second of simulated time."""
+THINGS = 20.0
+"""Messages per second that say where moving things are."""
 
 HEADER = """
 ================================================================================
@@ -114,16 +117,27 @@ def write_description(writer: Writer, r: Recording) -> None:
 
 
 def write_scene(writer: Writer, r: Recording, scene: Scene | str) -> dict[str, str]:
-    """Ground, boxes and way; a sentence in place of the scene is handed back as a fact."""
-    if isinstance(scene, str):
+    """Ground, boxes, way, and what moves; a sentence in place of the scene is handed back as a fact."""
+    if isinstance(scene, str) and not r.movers:
         return {"ground": f"left out: {scene}"}
     raw, start = writer._writer, float(r.at("time", 0))
     schema = raw.register_schema("foxglove.SceneUpdate", "jsonschema", json.dumps(SCHEMA).encode())
     channel = raw.register_channel("/gaitwright/scene", "json", schema)
-    way = way_points(r)
-    for message in (scene_update(scene, start), *([way_update(scene, way, start)] if len(way) > 1 else [])):
-        raw.add_message(channel, nanoseconds(start), json.dumps(message).encode(), nanoseconds(start))
-    return {}
+
+    def write(message: dict[str, Any], time: float) -> None:
+        raw.add_message(channel, nanoseconds(time), json.dumps(message).encode(), nanoseconds(time))
+
+    told, way = {}, way_points(r)
+    if isinstance(scene, str):  # what moved is in the recording itself
+        told, scene = {"ground": f"left out: {scene}"}, Scene("", Flat())
+    else:
+        write(scene_update(scene, start), start)
+        if len(way) > 1:
+            write(way_update(scene, way, start), start)
+    moving = replace(scene, movers=r.movers)
+    for (time,) in thinned(r, "time", rate=THINGS) if r.movers else ():
+        write(things_update(moving, float(time)), float(time))
+    return told
 
 
 def way_points(r: Recording) -> list[tuple[float, float]]:
@@ -185,9 +199,9 @@ def write_scans(writer: Writer, r: Recording) -> None:
         raw.add_message(channel, at, json.dumps({"time": float(time), **seen}).encode(), at)
 
 
-def thinned(r: Recording, *names: str) -> Iterator[tuple[Any, ...]]:
-    """What some channels are, `RATE` times a second."""
-    step, channels = max(1, round(1.0 / (RATE * r.dt))), [r.channel(name) for name in names]
+def thinned(r: Recording, *names: str, rate: float = RATE) -> Iterator[tuple[Any, ...]]:
+    """What some channels are, so often a second."""
+    step, channels = max(1, round(1.0 / (rate * r.dt))), [r.channel(name) for name in names]
     for part in parts(len(r)):
         yield from zip(*(channel[part][-part.start % step :: step] for channel in channels), strict=True)
 

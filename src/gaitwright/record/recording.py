@@ -9,6 +9,8 @@ import numpy as np
 from jaxtyping import Float
 
 from gaitwright.errors import NoRoom
+from gaitwright.ground.moving import Mover
+from gaitwright.ground.moving_entries import entry_of
 from gaitwright.locomotion import Lap
 from gaitwright.model.robot import Robot, lists_of
 from gaitwright.numerics.geometry import GRAVITY
@@ -50,6 +52,8 @@ class Recording:
     """Working memories that the numbers in channel `memory` stand for."""
     trip: int | None = None
     """Ticks of the trip, where the robot was let down after it; `None`: all of them."""
+    movers: tuple[Mover, ...] = ()
+    """What moved, appeared or vanished in the scene that the run began in: how, and when."""
 
     def __len__(self) -> int:
         """Number of ticks."""
@@ -164,6 +168,7 @@ class Recording:
         own = {name: getattr(self, name) for name in HEADER}
         own["faults"] = [asdict(fault) for fault in self.faults]
         own["memories"] = [dict(held) for held in self.memories]
+        own["movers"] = [entry_of(mover) for mover in self.movers]
         return own | {"robot": lists_of(self.robot)}
 
 
@@ -174,8 +179,11 @@ HEADER = ("scene", "seed", "dt", "skills", "drivers", "arrived", "fell", "stoppe
 class Recorder:
     """Collects laps; what is old goes to a file as a trip grows long."""
 
-    def __init__(self, robot: Robot, scene: str, seed: int, dt: float) -> None:
+    def __init__(
+        self, robot: Robot, scene: str, seed: int, dt: float, movers: tuple[Mover, ...] = ()
+    ) -> None:
         self.robot, self.scene, self.seed, self.dt = robot, scene, seed, dt
+        self.movers = movers
         self.packer = Packer(robot.n)
         self.writer = Writer(sum(widths(robot.n).values()))
         self.last: Lap | None = None
@@ -213,6 +221,7 @@ class Recorder:
             faults=last.faults if last else (),
             memories=tuple(self.packer.memories),
             trip=self.trip if self.trip != self.laps else None,
+            movers=self.movers,
         )
 
 

@@ -28,15 +28,29 @@ GROUND, BOX, WAY = (0.62, 0.63, 0.60, 1.0), (0.80, 0.62, 0.38, 1.0), (0.13, 0.47
 
 def scene_update(scene: Scene, seconds: float) -> dict[str, Any]:
     """Ground, boxes and other shapes of a scene, there from a time on [s]."""
-    boxes = [cube(scene, solid) for solid in scene.solids if isinstance(solid, Box)]
-    balls = [ball(scene, solid) for solid in scene.shapes if isinstance(solid, Sphere)]
-    others = [hull(scene, solid) for solid in scene.shapes if not isinstance(solid, Box | Sphere)]
+    shown = shapes(scene, [*scene.boxes, *scene.shapes])
+    boxes = shown.pop("cubes")
     entities = [entity("ground", seconds, triangles=[ground(scene)])]
     if boxes:
         entities.append(entity("boxes", seconds, cubes=boxes))
-    if balls or others:
-        entities.append(entity("shapes", seconds, spheres=balls, triangles=others))
+    if any(shown.values()):
+        entities.append(entity("shapes", seconds, **shown))
     return update(entities)
+
+
+def things_update(scene: Scene, seconds: float) -> dict[str, Any]:
+    """The moving things of a scene where they are at a time [s]; it replaces those of the message before."""
+    now = scene.at(seconds)
+    return update([entity("things", seconds, **shapes(now, now.things))])
+
+
+def shapes(scene: Scene, solids: Sequence[Solid]) -> dict[str, list[dict[str, Any]]]:
+    """Solids as the shapes of an entity."""
+    return {
+        "cubes": [cube(scene, solid) for solid in solids if isinstance(solid, Box)],
+        "spheres": [ball(scene, solid) for solid in solids if isinstance(solid, Sphere)],
+        "triangles": [hull(scene, solid) for solid in solids if not isinstance(solid, Box | Sphere)],
+    }
 
 
 def way_update(scene: Scene, points: Sequence[tuple[float, float]], seconds: float) -> dict[str, Any]:

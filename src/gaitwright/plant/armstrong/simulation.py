@@ -65,7 +65,7 @@ class ArmstrongPlant:
         self.method = method_named(self.integrator)
         self.system = system_of(self.robot, self.scene.friction)
         self.timestep = self._safe_timestep()
-        self.ground = Ground.of(self.scene)
+        self.ground = Ground.of(self.scene.at(0.0))
         self.reset(vary=False)
 
     def _safe_timestep(self) -> float:
@@ -96,6 +96,8 @@ class ArmstrongPlant:
         self.state = state_of(self.robot, self.system, start.position_w, start.rotation_wb, start.q)
         parts(self.system, self.state).v[:] = start.velocity_w
         self.time, self.trial_step, self.worst_residual = 0.0, self.timestep, 0.0
+        if self.scene.movers:
+            self.ground = Ground.of(self.scene.at(0.0))
         self.centres = feet(self.robot, start.q) @ start.rotation_wb.T + start.position_w
         self.velocity = start.velocity_w
         self.drive = self._drive(np.zeros((self.robot.n, 3)), np.zeros(3))
@@ -108,6 +110,8 @@ class ArmstrongPlant:
         What gains ask for is taken as the period begins. Torques that are no numbers switch the motors off.
         """
         self.velocity = parts(self.system, self.state).v.copy()
+        if self.scene.movers:
+            self.ground = Ground.of(self.scene.at(self.time))
         self.drive = self._drive(command.torques(self.measured.q, self.measured.qd), self.drive.push)
         if self.scene.patches:
             grip = self.scene.friction_at(self.centres[:, 0], self.centres[:, 1])
@@ -129,7 +133,7 @@ class ArmstrongPlant:
 
     def rearrange(self, scene: Scene) -> None:
         """Another arrangement of the world from now on; robot and friction stay as they are."""
-        self.scene, self.ground = scene, Ground.of(scene)
+        self.scene, self.ground = scene, Ground.of(scene.at(self.time))
 
     def sense(self) -> Measured:
         """The true state, copied; angles and rates of the hinges as the ball joints have them."""

@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from gaitwright.ground.scene import Scene
-from gaitwright.ground.terrain import Surface
+from gaitwright.ground.terrain import Box, Surface
 from gaitwright.plant.armstrong.contact import NOWHERE, SLOTS
 
 LOOKED_AT = 4
@@ -30,10 +30,11 @@ class Ground:
     @classmethod
     def of(cls, scene: Scene) -> "Ground":
         """The ground of a scene."""
-        rows = [
-            (b.x, b.y, scene.top(b), np.cos(b.yaw), np.sin(b.yaw), b.lx / 2, b.ly / 2) for b in scene.boxes
-        ]
-        surface = replace(scene, boxes=()) if scene.shapes else scene.surface
+        boxes = [*scene.boxes, *(thing for thing in scene.things if isinstance(thing, Box))]
+        rows = [(b.x, b.y, scene.top(b), np.cos(b.yaw), np.sin(b.yaw), b.lx / 2, b.ly / 2) for b in boxes]
+        others = tuple(thing for thing in scene.things if not isinstance(thing, Box))
+        shaped = scene.shapes or others
+        surface = replace(scene, boxes=(), things=others) if shaped else scene.surface
         return cls(surface, np.array(rows, dtype=float).reshape(-1, 7))
 
     def planes(self, centre: Float[np.ndarray, "feet 3"]) -> Float[np.ndarray, "slots 6"]:

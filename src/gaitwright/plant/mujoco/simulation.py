@@ -12,6 +12,7 @@ from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import quaternion_of
 from gaitwright.plant.instruments import specific_force
 from gaitwright.plant.limits import check_force, check_timestep
+from gaitwright.plant.mujoco.movers import Movers
 from gaitwright.plant.mujoco.world import Placed, build_world
 from gaitwright.plant.start import start_of
 from gaitwright.signals import Measured, MotorCommand, Sensed
@@ -90,6 +91,7 @@ class MujocoWorld:
         """The physics; a stopwatch may stand before it."""
         self.addresses = tuple(Address.of(self.model, placed) for placed in robots)
         self.views = tuple(Views.of(self.data, at) for at in self.addresses)
+        self.movers = Movers(self.model, scene)
         self.feet = [self.model.geom(f"{p.prefix}{leg}_foot").id for p in self.robots for leg in p.robot.legs]
 
     def place(self, i: int, seed: int, vary: bool) -> None:
@@ -116,6 +118,8 @@ class MujocoWorld:
         if self.scene.patches:
             self.grip()
         for _ in range(steps):
+            if self.scene.movers:
+                self.movers.follow(self.data)
             for i, command in enumerate(commands):
                 self.tell(i, command)
             self.mj_step(self.model, self.data)
@@ -141,10 +145,11 @@ class MujocoWorld:
     def rearranged(self, scene: Scene) -> "MujocoWorld":
         """The same robots as they are now in another scene."""
         new, old = MujocoWorld(self.robots, scene, self.timestep), self.data
-        new.data.time, new.data.qpos[:], new.data.qvel[:] = old.time, old.qpos, old.qvel
-        new.data.ctrl[:], new.data.qacc_warmstart[:] = old.ctrl, old.qacc_warmstart
-        for here, there in zip(self.addresses, new.addresses, strict=True):
-            new.data.xfrc_applied[there.base] = old.xfrc_applied[here.base]
+        new.data.time, new.data.ctrl[:] = old.time, old.ctrl
+        for at in self.addresses:  # robots come first in every world
+            new.data.qpos[at.qpos], new.data.qvel[at.qvel] = old.qpos[at.qpos], old.qvel[at.qvel]
+            new.data.qacc_warmstart[at.qvel] = old.qacc_warmstart[at.qvel]
+            new.data.xfrc_applied[at.base] = old.xfrc_applied[at.base]
         for here, there in zip(self.views, new.views, strict=True):
             there.before[:] = here.before
         return new
@@ -181,6 +186,7 @@ class MujocoPlant:
         """The robot on its feet at the scene's start, varied by `seed` where asked (`start_of`)."""
         mujoco.mj_resetData(self.model, self.data)
         self.world.place(0, seed, vary)
+        self.world.movers.follow(self.data)
         mujoco.mj_forward(self.model, self.data)
         return self.sense()
 

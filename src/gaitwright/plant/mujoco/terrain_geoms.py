@@ -47,8 +47,8 @@ def add(root: Element, world: Element, scene: Scene) -> None:
         _add_field(root, world, _field(scene), into.solid)
     for k, box in enumerate(scene.boxes):
         _add_box(world, f"box_{k}", box, scene.top(box), into.solid)
-    for k, shape in enumerate(scene.shapes):
-        _add_shape(into, f"shape_{k}", shape, scene.level(shape))
+    for k, shape in enumerate((*scene.shapes, *scene.things)):
+        add_shape(into, f"shape_{k}", shape, scene.level(shape))
 
 
 def fill(model: mujoco.MjModel, scene: Scene) -> None:
@@ -89,7 +89,7 @@ def _add_box(world: Element, name: str, box: Box, top: float, solid: dict[str, s
     child(world, "geom", solid, name=name, type="box", pos=centre, size=size, quat=yaw_quaternion(box.yaw))
 
 
-def _add_shape(into: "Pieces", name: str, shape: Solid, level: float) -> None:
+def add_shape(into: "Pieces", name: str, shape: Solid, level: float) -> None:
     """Another solid on its level: as MuJoCo's own shape, or as convex meshes that go down below it."""
     x, y = shape.centre
     if isinstance(shape, Box):

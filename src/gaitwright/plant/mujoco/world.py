@@ -20,6 +20,7 @@ from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, quaternion_of
 from gaitwright.plant.mujoco import terrain_geoms as ground
 from gaitwright.plant.mujoco.mjcf import child
+from gaitwright.plant.mujoco.movers import add_movers
 
 JOINTS = ("hip1", "hip2", "knee")
 """Joint names are `FL_hip1`, `FL_hip2`, `FL_knee`, and so on for every leg."""
@@ -45,8 +46,8 @@ class Placed:
 def build_world(robots: Sequence[Placed], scene: Scene, timestep: float = 0.002) -> mujoco.MjModel:
     """The physics of robots in a scene; `timestep` in seconds.
 
-    Robots collide with the ground, the boxes and each other, not with themselves. MuJoCo's reset upon a bad
-    state is off: numbers that blow up stay visible. Raises `BadFile` where MuJoCo refuses it.
+    Robots collide with the ground, what stands and moves on it and each other, not with themselves. MuJoCo's
+    reset upon a bad state is off: numbers that blow up stay visible. Raises `BadFile` if MuJoCo refuses it.
     """
     if len(robots) > MOST_ROBOTS:
         raise WrongUse(f"{len(robots)} robots in one world; there can be {MOST_ROBOTS}")
@@ -57,6 +58,7 @@ def build_world(robots: Sequence[Placed], scene: Scene, timestep: float = 0.002)
     ground.add(root, world, scene)
     for number, placed in enumerate(robots):
         _add_robot(Into(world, actuator, sensor), placed, scene, number, len(robots))
+    add_movers(root, world, scene, sum(placed.robot.total_mass for placed in robots))
     try:
         model = mujoco.MjModel.from_xml_string(ElementTree.tostring(root, encoding="unicode"))
     except ValueError as error:
