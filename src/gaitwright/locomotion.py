@@ -22,6 +22,7 @@ from gaitwright.control.learned.profile import Profile
 from gaitwright.control.numerical import Method, NumericalController
 from gaitwright.control.takeover import LEARNED, Takeover
 from gaitwright.driving import Driving, Memories, with_gait_in_use
+from gaitwright.errors import WrongUse
 from gaitwright.gait.coordinator import Coordinator
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle
 from gaitwright.gait.operators import Operator
@@ -49,7 +50,7 @@ from gaitwright.signals import (
     SkillCall,
 )
 from gaitwright.skills.chooser import DefaultChooser
-from gaitwright.skills.foothold_guard import FootholdGuard
+from gaitwright.skills.commanded import guarded
 from gaitwright.skills.rule_chooser import RuleChooser
 from gaitwright.stages import Chooser, Controller, Memory, MotionStage, Navigation, Perception
 
@@ -114,7 +115,7 @@ class Brain:
             robot,
             perception,
             navigator,
-            FootholdGuard(chooser, robot) if sees else chooser,
+            guarded(chooser, robot, sees),
             Coordinator(robot, dt),
             {
                 "numerical": numerical,
@@ -173,10 +174,19 @@ class Brain:
         return replace(self, coordinator=replace(self.coordinator, operators=tuple(operators)))
 
     def with_map(self, known: LearnedMap) -> "Brain":
-        """The same brain with what was learned of the ground on earlier trips: it explores."""
-        navigator = self.navigator
-        assert isinstance(navigator, Navigator) and navigator.noise is not None, "known ground is not learned"
-        return replace(self, navigator=replace(navigator, learned=known))
+        """The same brain with what was learned of the ground on earlier trips."""
+        return replace(self, navigator=replace(self.explorer, learned=known))
+
+    def with_strategy(self, name: str) -> "Brain":
+        """The same brain that chooses its way by another strategy where its map is blank."""
+        return replace(self, navigator=replace(self.explorer, strategy=name))
+
+    @property
+    def explorer(self) -> Navigator:
+        """The navigator of a robot that sees the ground on its way. Raises `WrongUse` where it knows it."""
+        if not isinstance(self.navigator, Navigator) or self.navigator.noise is None:
+            raise WrongUse("this robot knows the ground: there is nothing to explore")
+        return self.navigator
 
     @cached_property
     def driving(self) -> Driving:
@@ -198,7 +208,7 @@ class Brain:
         if before is None:
             memories = Memories(perceived, travelled, self.coordinator.begin(sensed, phase))
             return Mind(mission, ground, route, call, memories)
-        memories = before.memories._replace(perception=perceived, navigator=travelled)
+        memories = before.memories._replace(navigator=travelled)  # the next lap perceives what was measured
         return before._replace(mission=mission, ground=ground, route=route, call=call, memories=memories)
 
     def chosen(
@@ -289,7 +299,7 @@ def plan_and_choose(brain: Brain, mind: Mind, sensed: Sensed, ground: GroundMap)
         route, travelled = brain.navigator.plan(route, sensed, ground, scan, travelled)
         looked_at = now
     old = mind.route
-    event = route is not old and (route.arrived != old.arrived or len(route.path) != len(old.path))
+    event = route is not old and route.is_other_than(old)
     if not event and now - mind.chosen_at < mind.call.gait.period - 1e-9:
         return mind if route is old else mind._replace(route=route, looked_at=looked_at), travelled
     call = brain.chosen(mind.mission, route, sensed, mind.call, ground)

@@ -15,12 +15,14 @@ from gaitwright.descent import can_descend, descent
 from gaitwright.errors import NoRoom, WrongUse, is_interrupt
 from gaitwright.ground.scene import Scene
 from gaitwright.locomotion import Brain, Lap, Mind, think
+from gaitwright.missions import Steering, Velocity
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import heading, rotation
 from gaitwright.perception.fault_words import ends_trip
 from gaitwright.record.recording import Recorder, Recording
 from gaitwright.record.scene_of import scene_for, scene_scale  # noqa: F401 - found here by all who set up runs
 from gaitwright.signals import Measured, Mission
+from gaitwright.skills.commanded import check_velocity
 from gaitwright.stages import Plant, SimulatedPlant
 from gaitwright.termination import Ending, Termination
 
@@ -170,6 +172,18 @@ class Session:
         self.brain.controller(mission.driver)
         self.mind = self.brain.begin(mission, self.measured, before=self.mind)
         self.termination.set_out(self.measured.time)
+
+    def steer(self, forward: float, left: float = 0.0, turn: float = 0.0) -> None:
+        """A person's velocity from the next step on, in the robot's heading frame [m/s, m/s, rad/s]; it holds
+        until another one, or a mission, is given.
+
+        Where there is no room for it the robot stands (`mind.route.pause` says why) and the run goes on.
+        Raises `WrongUse` for one that is beyond the robot's skills.
+        """
+        velocity = Velocity(forward, left, turn)
+        check_velocity(self.brain.robot, velocity)
+        now = Steering((0.0,), (velocity,))
+        self.give(Mission((), driver=self.mind.mission.driver, guidance=now))
 
     def drive(self, driver: str) -> None:
         """Another driver from the next step on."""

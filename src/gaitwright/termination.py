@@ -153,7 +153,8 @@ class Termination:
 
     def stuck(self, route: Route, sensed: Sensed) -> Ending | None:
         """A mission that makes no progress; on another way, since this one is blocked, it begins anew."""
-        if not route.path or route.arrived:
+        if not route.path or route.arrived or route.pause:
+            self.progress_at = sensed.time
             return None
         if route.remaining > self.left + ANEW * self.robot.body_length:
             self.nearest = math.inf

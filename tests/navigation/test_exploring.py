@@ -10,8 +10,9 @@ import pytest
 from gaitwright.description.load import load_robot
 from gaitwright.ground.elevation import BLIND
 from gaitwright.model.robot import Robot
-from gaitwright.navigation.navigator import Navigator, Travel
+from gaitwright.navigation.navigator import Navigator
 from gaitwright.navigation.room_needed import half_width
+from gaitwright.navigation.travel import Travel
 from gaitwright.signals import GroundMap, Mission, Route, Sensed, Sight
 
 GO2 = load_robot("go2")

@@ -1,7 +1,7 @@
 """The navigator passes way-points in order, says where it has come to, and why there is no way."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import pytest
@@ -12,8 +12,10 @@ from shapely import LineString, Point, Polygon
 from gaitwright.ground.scene import Scene
 from gaitwright.ground.terrain import Box, Flat
 from gaitwright.navigation.known_field import known_field
-from gaitwright.navigation.navigator import ARRIVED, PASSED, STOP_AT, Navigator, Travel
+from gaitwright.navigation.navigator import Navigator
+from gaitwright.navigation.reached import ARRIVED, PASSED, STOP_AT
 from gaitwright.navigation.room_needed import half_width
+from gaitwright.navigation.travel import Travel
 from gaitwright.perception.known_ground import map_of
 from gaitwright.signals import GroundMap, Mission, Route, Sensed
 from robots_by_hand import dog
@@ -26,15 +28,16 @@ places = st.tuples(st.floats(-3.9, 9.9), st.floats(-3.9, 3.9))
 
 @dataclass(frozen=True)
 class Pilot:
-    """The dog's navigator over a map of its own, without eyes."""
+    """The dog's navigator over a map of its own, without eyes; it turns wherever it is."""
 
     ground: GroundMap
+    navigator: Navigator = field(default_factory=lambda: Navigator(DOG, makes_room=False))
 
     def set_out(self, mission: Mission, sensed: Sensed) -> Route:
-        return Navigator(DOG).set_out(mission, sensed, self.ground)[0]
+        return self.navigator.set_out(mission, sensed, self.ground)[0]
 
     def plan(self, route: Route, sensed: Sensed) -> Route:
-        return Navigator(DOG).plan(route, sensed, self.ground, None, self.memory(route))[0]
+        return self.navigator.plan(route, sensed, self.ground, None, self.memory(route))[0]
 
     def memory(self, route: Route) -> Travel:
         """Of a route to one goal."""

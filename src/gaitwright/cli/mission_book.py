@@ -15,7 +15,7 @@ from gaitwright.errors import WrongUse, short
 from gaitwright.files import is_there
 from gaitwright.learning.map_books import known, map_in, notes_of, with_trip
 from gaitwright.model.robot import Robot
-from gaitwright.navigation.navigator import Navigator, Travel
+from gaitwright.navigation.travel import Travel
 from gaitwright.record.recording import Recording
 from gaitwright.skillbook.book import Skillbook
 from gaitwright.skillbook.writer import Ledger, open_for_learning
@@ -55,10 +55,9 @@ def book_of(args: Namespace, robot: Robot) -> Iterator[Ledger | None]:
 
 def with_map(setting: trips.Setting, ledger: Ledger, place: str) -> trips.Setting:
     """The same with what the book knows of the place, which is said."""
-    navigator = setting.brain.navigator
-    assert isinstance(navigator, Navigator)
+    nothing = setting.brain.explorer.nothing(setting.scene.bounds)
     try:
-        learned = map_in(ledger.book, place, navigator.nothing(setting.scene.bounds))
+        learned = map_in(ledger.book, place, nothing)
     except WrongUse as error:
         remark(f"{error}: it is learned anew")
         return setting

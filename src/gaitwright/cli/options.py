@@ -10,7 +10,7 @@ import re
 from typing import NamedTuple, NoReturn
 
 from gaitwright.cli.arguments import ADD
-from gaitwright.cli.sentences import between_words
+from gaitwright.cli.help_format import WholeWords, Wrapped
 from gaitwright.errors import WrongUse, unknown
 
 
@@ -33,14 +33,14 @@ COMMANDS = {
     ),
     "mission": Command(
         "take a robot to a goal",
-        "Takes a robot through a scene to a goal and reports how it went. Exit code 0: it stands at the "
-        "goal; 1: it does not, and `stopped_because` says why. The scenes that come along are made for "
-        "robots up to 0.6 m tall; for a taller one every length of the scene is multiplied by its height / "
-        "0.29 m, rounded (9 for `thesis`).",
+        "Takes a robot through a scene to a goal, or as a file says (--route, --velocity), and reports how "
+        "it went. Exit code 0: it stands at the goal, or did as told; 1: it does not, and `stopped_because` "
+        "says why. The scenes that come along are made for robots up to 0.6 m tall; for a taller one every "
+        "length of the scene is multiplied by its height / 0.29 m, rounded (9 for `thesis`).",
         (
-            "gaitwright mission --goal 6 0",
             "gaitwright mission --scene rough:0.03 --waypoints 2,1 4,-1 6,0 --speed 0.5 --out runs/rough",
-            "gaitwright mission --robot thesis --goal 54 0 --seed 1 --json -",
+            "gaitwright mission --sight camera --strategy thesis --scene bugtrap --goal 12 0",
+            "gaitwright mission --scene flat --route rounds.csv     # or --velocity commands.csv",
         ),
     ),
     "skill": Command(
@@ -259,37 +259,6 @@ def all_parsers() -> tuple[Parser, dict[str, argparse.ArgumentParser]]:
             "--json", metavar="FILE|-", help="write the figures as JSON; - is the standard output"
         )
     return top, parsers
-
-
-class WholeWords(argparse.RawDescriptionHelpFormatter):
-    """Breaks the help of options between words, never within `turn-right`."""
-
-    def _split_lines(self, text: str, width: int) -> list[str]:
-        return between_words(" ".join(text.split()), width)
-
-
-class Wrapped(WholeWords):
-    """Wraps the description too, and the examples where a shell would take them so."""
-
-    def _fill_text(self, text: str, width: int, indent: str) -> str:
-        if text.startswith("examples:"):
-            return "\n".join(part for line in text.split("\n") for part in example_lines(line, width))
-        return "\n".join(between_words(" ".join(text.split()), width))
-
-
-def example_lines(example: str, width: int) -> list[str]:
-    """An example that is wider than the screen: what is said of it above, the command over several lines."""
-    if len(example) <= width:
-        return [example]
-    command, _, about = (part.rstrip() for part in example.partition("#"))
-    lines = [""]
-    for option in re.split(r" (?=--)", command):
-        if lines[-1] and len(lines[-1]) + len(option) + 3 > width:
-            lines[-1] += " \\"
-            lines.append(" " * 6 + option)
-        else:
-            lines[-1] += " " * bool(lines[-1]) + option
-    return [*([f"  #{about}"] if about else []), *lines]
 
 
 class Version(argparse.Action):

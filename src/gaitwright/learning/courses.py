@@ -32,7 +32,7 @@ def course(robot: Robot, seed: int, kind: str = "", name: str = "") -> Course:
     kind = kind or KINDS[int(rng.integers(len(KINDS)))]
     scale = scene_scale(robot)
     scene = replace(scene_of(kind, rng, scale), start=(0.0, 0.0, 0.0))
-    navigator, perception = Navigator(robot), KnownGround.of(scene, robot)
+    navigator, perception = Navigator(robot, makes_room=False), KnownGround.of(scene, robot)
     low, high = SPEEDS[int(rng.integers(len(SPEEDS)))]
     speed = float(rng.uniform(low, high)) * speed_scale(robot)
     is_across, room = kind in ("stairs", "ramp", "gap"), half_width(robot)

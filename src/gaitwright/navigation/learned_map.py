@@ -24,7 +24,7 @@ from gaitwright.navigation.tolerances import CHECK, DEEP, LINK, TOUCH
 from gaitwright.navigation.unlearning import unlearned
 from gaitwright.signals import Sight
 
-Path = Sequence[Point] | Float[np.ndarray, "n 2"]
+Path = Sequence[Point] | Float[np.ndarray, "_ 2"]
 """Points of a path [m]."""
 STRATEGIES = ("optimistic", "thesis")
 """How a way is chosen where the map is blank."""

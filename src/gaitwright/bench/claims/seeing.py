@@ -13,7 +13,7 @@ from gaitwright.locomotion import Brain
 from gaitwright.model.camera import Camera
 from gaitwright.model.kinematics import feet
 from gaitwright.model.robot import Robot
-from gaitwright.navigation.navigator import ARRIVED
+from gaitwright.navigation.reached import ARRIVED
 from gaitwright.numerics.geometry import rotation
 from gaitwright.plant.mujoco.simulation import MujocoPlant
 from gaitwright.plant.seeing import SeeingPlant
