@@ -24,6 +24,7 @@ from gaitwright.navigation.navigator import (
 from gaitwright.navigation.obstacles import half_width
 from gaitwright.navigation.roads import Bounds
 from gaitwright.navigation.visibility import Point, length
+from gaitwright.numerics.geometry import heading, rotation
 from gaitwright.signals import GroundMap, Mission, Route, Scan, Sensed, Sight
 
 
@@ -64,7 +65,7 @@ class Explorer:
             known = self.nothing(ground.bounds)
         sight = memory.sight if memory is not None else None
         explored = looked(Explored(known, left, frozenset(), sight), ground.sight)
-        path, no_way = way_over(explored.known, here, left)
+        path, no_way = way_over(explored.known, here, left, facing(sensed))
         if no_way:
             return nowhere(mission, no_way), explored
         begins, ends = directions((here, *path))
@@ -86,7 +87,7 @@ class Explorer:
             path = path[1:]
         explored = explored._replace(left=left)
         if known.is_cut((here, *path)):
-            path, no_way = way_over(known, here, left)
+            path, no_way = way_over(known, here, left, facing(sensed))
             if no_way:
                 return replace(route, path=(), no_way=no_way), explored
         remaining = length(here, path)
@@ -113,15 +114,22 @@ class Explorer:
         return route, explored._replace(travelled=travelled)
 
 
-def way_over(known: LearnedMap, here: Point, points: Sequence[Point]) -> tuple[tuple[Point, ...], str | None]:
-    """A path from here over all way-points, or why there is none."""
+def way_over(
+    known: LearnedMap, here: Point, points: Sequence[Point], towards: float
+) -> tuple[tuple[Point, ...], str | None]:
+    """A path from here, where it looks `towards` [rad], over all way-points, or why there is none."""
     path: list[Point] = []
     for point in points:
-        leg = known.way(path[-1] if path else here, point)
+        leg = known.way(path[-1] if path else here, point, None if path else towards)
         if leg is None:
             return (), f"to ({point[0]:g}, {point[1]:g}) leads no way"
         path.extend(leg.path)
     return tuple(path), None
+
+
+def facing(sensed: Sensed) -> float:
+    """Where the robot's nose points, world [rad]."""
+    return heading(rotation(sensed.orientation_wb))
 
 
 def looked(explored: Explored, sight: Sight | None) -> Explored:

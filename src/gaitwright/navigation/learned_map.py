@@ -133,8 +133,9 @@ class LearnedMap:
         return replace(self, rows=rows, raster=raster, noise=noise, trips=trips)
 
     # --- asked ----------------------------------------------------------------------------------
-    def way(self, start: Point, goal: Point) -> Way | None:
-        """The way to take; `None`: there is none for a disc of radius r / cos 15° (said only if so).
+    def way(self, start: Point, goal: Point, facing: float | None = None) -> Way | None:
+        """The way to take by a robot that faces `facing` [rad], or does not say where; `None`: there is none
+        for a disc of radius r / cos 15° (said only if so).
 
         A start that is too near to something is left. A goal outside the field or nearer than r to something
         cannot be reached, unless the robot stands there. `None` is said only if there is none either without
@@ -142,16 +143,16 @@ class LearnedMap:
         """
         require_places(np.array([*start, *goal]))
         start, goal = (float(start[0]), float(start[1])), (float(goal[0]), float(goal[1]))
-        way = self.way_over(self.road_map, start, goal)
+        way = self.way_over(self.road_map, start, goal, facing)
         if way is None and (self.noise > 0.0 or (self.rows[:, KIND] == SUPPOSED).any()):
-            return self.way_over(self.sure_road_map, start, goal)
+            return self.way_over(self.sure_road_map, start, goal, facing)
         return way
 
-    def way_over(self, road_map: RoadMap, start: Point, goal: Point) -> Way | None:
+    def way_over(self, road_map: RoadMap, start: Point, goal: Point, facing: float | None) -> Way | None:
         """The way to take over some roads, by the map's strategy."""
         if self.strategy == "thesis":
             return thesis_way(road_map, self.raster, self.trail, start, goal)
-        return best_way(road_map, self.raster, start, goal)
+        return best_way(road_map, self.raster, start, goal, facing)
 
     def is_cut(self, path: Path) -> bool:
         """Whether what is known for sure comes within r of a path [m], and nearer than to its beginning,
