@@ -159,6 +159,19 @@ COMMANDS = {
             "gaitwright skill --driver learned --skillbook go2.skills --balance mine.json --push 1.5 90",
         ),
     ),
+    "scanner": Command(
+        "what the terrain scanner held at a moment of a recorded run",
+        "Supporting feet, the support polygon and the coming one, the centre of gravity from above, where "
+        "each foot could be put, feet that may not be lifted, pitch and roll, and slope and height of the "
+        "ground ahead of each foot, as far as the robot knew it. With --out, `mission` and `skill` record it "
+        "20 times a second: in recording.npz under names that begin with scanner_, in recording.mcap as "
+        "/gaitwright/scanner.",
+        (
+            "gaitwright scanner runs/walk/recording.npz",
+            "gaitwright scanner runs/walk/recording.npz --at 4.2 --plot --out scanner.png",
+            "gaitwright scanner runs/walk/recording.npz --at 4.2 --json -",
+        ),
+    ),
     "bench": Command(
         "every claim, measured",
         "Measures what this project claims about itself, on this machine. Without names: everything.",

@@ -37,6 +37,8 @@ from gaitwright.navigation.navigator import Navigator
 from gaitwright.navigation.visibility import shortest_path
 from gaitwright.perception.known_ground import map_of
 from gaitwright.plant.mujoco.world import Placed, build_world
+from gaitwright.record.preview_facts import facts_of
+from gaitwright.record.previews import previews_in
 from gaitwright.record.recording import load
 from gaitwright.skillbook import rows
 from gaitwright.skillbook.book import Skillbook, export_text, import_text
@@ -102,7 +104,10 @@ def take_rulebook(path: Path) -> None:
 
 def take_recording(path: Path) -> None:
     """Read, summed up, and asked about its last moment."""
-    load(path).report()
+    recording = load(path)
+    recording.report()
+    for held in previews_in(recording.previews) if recording.previews is not None else ():
+        json.dumps(facts_of(recording.robot, held), allow_nan=False)
     import_module("gaitwright.cli.recorded_moment").recorded_facts(str(path), None)  # stands above us
 
 
@@ -204,7 +209,8 @@ def damaged_array(chance: Random, array: np.ndarray) -> np.ndarray:
     if how == 0:
         return array[: chance.choice((0, 1, len(array) // 2))]
     if how == 1:
-        return array.astype(chance.choice(("f4", "i8", "U3", "c16")))
+        with np.errstate(invalid="ignore"):  # what is no number is no whole one either
+            return array.astype(chance.choice(("f4", "i8", "U3", "c16")))
     if how == 2:
         return array.reshape(-1, 1)
     array = array.astype(float)
@@ -244,6 +250,8 @@ COMMANDS: tuple[tuple[str, ...], ...] = (
     ("explain", "sound.skills", "--situation", "road=flat", "pace=0.4", "--not", "climb"),
     ("explain", "sound.skills", "--history", "trot", "--json", "-"),
     ("explain", "sound.skills", "--recording", "sound.npz", "--at", "0.02"),
+    ("scanner", "sound.npz", "--at", "0.02", "--json", "-"),
+    ("scanner", "sound.npz", "--plot", "--out", "held.png"),
     ("books", "export", "sound.skills", "--out", "text.txt"),
     ("books", "import", "sound.txt", "--out", "again.skills"),
     ("books", "merge", "sound.skills", "sound.skills", "--out", "both.skills"),
