@@ -181,12 +181,13 @@ COMMANDS = {
         "tables and figures of the thesis",
         "Computes tables and figures of the thesis anew and holds them against what it says: what agrees, "
         "what does not, and what cannot. Prints them and leaves each as Markdown, the figures as PNG too, "
-        "over those of an earlier run. Names: table-6.1, table-6.2, figure-6.5, figure-6.6; without names: "
-        "all. Exit code 0: every claim agrees that can; 1: one does not.",
+        "over those of an earlier run. Names: table-6.1, table-6.2, figure-6.5, figure-6.6, figure-6.9, "
+        "figure-6.10, figure-6.11; without names: all. Figures 6.9 to 6.11 are walked anew in physics, which "
+        "takes up to a minute each. Exit code 0: every claim agrees that can; 1: one does not.",
         (
             "gaitwright reproduce",
-            "gaitwright reproduce table-6.1",
-            "gaitwright reproduce figure-6.6 --out here",
+            "gaitwright reproduce table-6.1 figure-6.6 --out here",
+            "gaitwright reproduce figure-6.11 --json -     # its paths and maps as numbers",
         ),
     ),
     "doctor": Command(
