@@ -30,7 +30,6 @@ from gaitwright.knowledge.rules import Rulebook
 from gaitwright.knowledge.trust import Grade
 from gaitwright.model.camera import Camera
 from gaitwright.model.robot import Robot
-from gaitwright.navigation.explorer import Explorer
 from gaitwright.navigation.learned_map import LearnedMap
 from gaitwright.navigation.navigator import Navigator
 from gaitwright.perception.estimated_state import EstimatedState, Sensing
@@ -107,7 +106,7 @@ class Brain:
         navigator: Navigation = Navigator(robot)
         if camera is not None:
             perception = SeeingGround.of(scene.bounds, robot, camera, dt if sensing == "estimated" else None)
-            navigator = Explorer(robot, perception.noise)
+            navigator = Navigator(robot, perception.noise)
         else:
             known = KnownGround.of(scene, robot, sees)
             perception = known if sensing == "true" else EstimatedState(known, robot, dt)
@@ -175,8 +174,9 @@ class Brain:
 
     def with_map(self, known: LearnedMap) -> "Brain":
         """The same brain with what was learned of the ground on earlier trips: it explores."""
-        assert isinstance(self.navigator, Explorer), "who knows the ground has nothing to learn of it"
-        return replace(self, navigator=replace(self.navigator, known=known))
+        navigator = self.navigator
+        assert isinstance(navigator, Navigator) and navigator.noise is not None, "known ground is not learned"
+        return replace(self, navigator=replace(navigator, learned=known))
 
     @cached_property
     def driving(self) -> Driving:

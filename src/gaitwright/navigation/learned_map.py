@@ -20,7 +20,7 @@ from gaitwright.navigation.planning import Point, Way, best_way
 from gaitwright.navigation.raster import Raster, blank, with_sight, with_way
 from gaitwright.navigation.roads import Bounds, RoadMap, fence
 from gaitwright.navigation.thesis_rule import thesis_way
-from gaitwright.navigation.tolerances import CHECK, DEEP, TOUCH
+from gaitwright.navigation.tolerances import CHECK, DEEP, LINK, TOUCH
 from gaitwright.navigation.unlearning import unlearned
 from gaitwright.signals import Sight
 
@@ -76,7 +76,7 @@ class LearnedMap:
         return cls(bounds, radius, strategy, noise, rows_of(np.empty((0, 4)), True), blank(bounds))
 
     @classmethod
-    def of_polygons(cls, bounds: Bounds, radius: float, polygons: Sequence[Sequence[Point]]) -> "LearnedMap":
+    def of_polygons(cls, bounds: Bounds, radius: float, polygons: Sequence[Path]) -> "LearnedMap":
         """A field that is known from the start; outlines (closed by themselves) may touch, overlap, cross
         themselves, lie in each other or have no area."""
         empty = cls.of(bounds, radius)
@@ -144,7 +144,7 @@ class LearnedMap:
         require_places(np.array([*start, *goal]))
         start, goal = (float(start[0]), float(start[1])), (float(goal[0]), float(goal[1]))
         way = self.way_over(self.road_map, start, goal, facing)
-        if way is None and (self.noise > 0.0 or (self.rows[:, KIND] == SUPPOSED).any()):
+        if way is None and (self.noise > 0.0 or len(self.sure) < len(self.rows)):
             return self.way_over(self.sure_road_map, start, goal, facing)
         return way
 
@@ -157,14 +157,22 @@ class LearnedMap:
     def is_cut(self, path: Path) -> bool:
         """Whether what is known for sure comes within r of a path [m], and nearer than to its beginning,
         where the robot stands (`way` may go through what is only supposed, and out of what is deep in it)."""
-        sure = self.pieces[self.rows[:, KIND] != SUPPOSED]
         room, deep = self.narrowest - CHECK, DEEP * self.radius
-        return is_path_cut(sure, path, room, deep) or is_path_cut(fence(self.bounds), path, room, deep)
+        return is_path_cut(self.sure, path, room, deep) or is_path_cut(fence(self.bounds), path, room, deep)
+
+    def is_touched(self, place: Point) -> bool:
+        """Whether something that is known for sure comes within r of a place [m]: no disc stands there."""
+        return bool(crossed(self.sure, np.array([place, place]), self.narrowest - LINK).any())
 
     @property
     def pieces(self) -> Float[np.ndarray, "n 4"]:
         """x0, y0, x1, y1 of what is known of obstacles' edges [m]."""
         return self.rows[:, :4]
+
+    @cached_property
+    def sure(self) -> Float[np.ndarray, "n 4"]:
+        """The pieces that are not only supposed [m]."""
+        return self.pieces[self.rows[:, KIND] != SUPPOSED]
 
     @property
     def corners(self) -> Bool[np.ndarray, "n 2"]:
@@ -184,7 +192,7 @@ class LearnedMap:
     @cached_property
     def sure_road_map(self) -> RoadMap:
         """The roads of a disc narrower by what the noise may have added, without what is only supposed."""
-        return RoadMap(self.bounds, self.narrowest, self.pieces[self.rows[:, KIND] != SUPPOSED])
+        return RoadMap(self.bounds, self.narrowest, self.sure)
 
 
 def require_places(*arrays: np.ndarray) -> None:

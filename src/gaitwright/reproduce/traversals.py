@@ -13,8 +13,8 @@ from gaitwright.learning.map_books import length_of, way_walked, with_trip
 from gaitwright.locomotion import Brain
 from gaitwright.model.camera import Camera
 from gaitwright.model.robot import Robot
-from gaitwright.navigation.explorer import Explorer
 from gaitwright.navigation.learned_map import LearnedMap
+from gaitwright.navigation.navigator import Navigator
 from gaitwright.numerics.geometry import heading, rotation
 from gaitwright.plant.registry import make_plant
 from gaitwright.plant.seeing import SeeingPlant
@@ -82,7 +82,7 @@ def traversed(
 def nothing_known(robot: Robot, scene: Scene, strategy: str) -> LearnedMap:
     """The empty map of a robot that has never been there."""
     explorer = Brain.of(robot, scene, camera=Camera.for_robot(robot)).navigator
-    assert isinstance(explorer, Explorer), "a robot with a camera explores"
+    assert isinstance(explorer, Navigator), "a robot with a camera explores"
     return replace(explorer.nothing(scene.bounds), strategy=strategy)
 
 

@@ -33,8 +33,8 @@ from gaitwright.ground.scene import load_scene
 from gaitwright.knowledge.json_form import loads
 from gaitwright.learning.map_books import learned_map_of
 from gaitwright.learning.notes import relearned
-from gaitwright.navigation.navigator import Navigator
-from gaitwright.navigation.visibility import shortest_path
+from gaitwright.navigation.known_field import known_field
+from gaitwright.navigation.room_needed import half_width
 from gaitwright.perception.known_ground import map_of
 from gaitwright.plant.mujoco.world import Placed, build_world
 from gaitwright.record.preview_facts import facts_of
@@ -66,10 +66,7 @@ class Kind:
 def take_scene(path: Path) -> None:
     """Read, mapped, planned in and built."""
     robot, scene = load_robot("go2"), load_scene(str(path))
-    ground = map_of(scene, robot)
-    view = Navigator(robot).view(ground)
-    if not view.blocked(scene.start[:2]) and view.inside(GOAL):
-        shortest_path(view, scene.start[:2], GOAL)
+    known_field(map_of(scene, robot), half_width(robot)).way(scene.start[:2], GOAL)
     build_world([Placed(robot)], scene)
 
 
