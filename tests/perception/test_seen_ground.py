@@ -145,7 +145,7 @@ def test_unknown_nodes_get_a_near_known_height_and_small_gaps_are_bridged(seed, 
     before, was = np.where(known > 0.0, heights, np.nan), known > 0.0
     filled, now = before.copy(), known.copy()
     hidden = np.zeros((12, 12), np.uint8)
-    fill(filled, now, 0.2, 1, hidden)
+    fill(filled, now, 0.2, False, hidden)
     np.testing.assert_array_equal(filled[was], before[was])
     if was.any():
         near = filled[now == 0.0]

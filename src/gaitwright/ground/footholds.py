@@ -13,7 +13,8 @@ from gaitwright.numerics.compiled import kernel
 SEARCHED = 0.6
 """Farthest neighbour of a wished foothold, in body heights."""
 FAITH = 0.5
-"""Weight of the distance from the foothold chosen so far, against that from the wished one."""
+"""Weight of the distance from the foothold chosen so far, against that from the wished one, as a swing
+begins; it grows with the inverse square of what is left of it, as what a foot can do in that falls."""
 OFF_PLANE = 1.4
 """Ground this many steps above or below the plane under the robot may be a foothold: a step, and what the
 plane lags behind the ground."""
@@ -39,6 +40,8 @@ class FootholdRequest(NamedTuple):
     """How far the shank leans out over the ground per height, world x, y."""
     height: float
     """Of the body [m]."""
+    swung: float = 0.0
+    """How much of its swing the foot has done, 0 … 1: the farther, the less it can still go elsewhere."""
 
 
 @kernel
@@ -66,11 +69,12 @@ def choose_foothold(ground, wish):
     spacing, limit = ground.place[2], (SEARCHED * wish.height) ** 2
     reach = int(SEARCHED * wish.height / spacing)
     least, best_x, best_y = math.inf, wish.x, wish.y
+    faith = FAITH / max(1.0 - wish.swung, 0.1) ** 2
     for i in range(max(row - reach, 0), min(row + reach + 1, rows)):
         for j in range(max(column - reach, 0), min(column + reach + 1, columns)):
             x, y = ground.place[0] + j * spacing, ground.place[1] + i * spacing
             far = (x - wish.x) ** 2 + (y - wish.y) ** 2
-            cost = far + FAITH * ((x - wish.before_x) ** 2 + (y - wish.before_y) ** 2)
+            cost = far + faith * ((x - wish.before_x) ** 2 + (y - wish.before_y) ** 2)
             if cost < least and far < limit and is_fit(ground, i, j, wish):
                 least, best_x, best_y = cost, x, y
     return least < math.inf, best_x, best_y
@@ -93,7 +97,7 @@ def last_foothold(ground, start, level, way, far, aside, step, stride, height):
             x = start[0] + at * ahead_x - k * aside * ahead_y
             y = start[1] + at * ahead_y + k * aside * ahead_x
             row, column = nearest(ground, x, y)
-            wish = FootholdRequest(x, y, x, y, level, allowed, (0.0, 0.0), height)
+            wish = FootholdRequest(x, y, x, y, level, allowed, (0.0, 0.0), height, 0.0)
             if is_fit(ground, row, column, wish):
                 last, level, allowed, found = at, ground.heights[row, column], step, True
                 break

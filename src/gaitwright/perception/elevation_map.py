@@ -51,8 +51,6 @@ class ElevationMap:
     proof: float = -math.inf
     """Feet count on a cell that was hit by so many rays more than went through it: with noise some hit cells
     that have no ground."""
-    rim: int = 1
-    """Feet keep so many cells away from what they cannot count on."""
 
     @classmethod
     def for_robot(cls, robot: Robot, keep: float = math.inf, noise: float = 0.0) -> "ElevationMap":
@@ -61,9 +59,7 @@ class ElevationMap:
         cells = np.empty((CELLS, CELLS, 6), np.float32)
         cells[:] = (np.nan, np.inf, np.inf, -np.inf, -np.inf, 0.0)
         first = (-CELLS // 2, -CELLS // 2)
-        if not noise:
-            return cls(robot.height, first, cells, keep)
-        return cls(robot.height, first, cells, keep, PROVEN, 1 + math.ceil(noise / (SPACING * robot.height)))
+        return cls(robot.height, first, cells, keep, PROVEN if noise else -math.inf)
 
     @property
     def spacing(self) -> float:

@@ -34,7 +34,7 @@ FAR = 30_000
 def footholds_of(seen: ElevationMap) -> ElevationGrid:
     """The ground for feet: nodes are the middles of the map's cells."""
     heights, edges, known = (np.empty((seen.n, seen.n)) for _ in range(3))
-    write_grid(seen.cells, seen.first, seen.edge, (seen.proof, seen.rim), heights, edges, known)
+    write_grid(seen.cells, seen.first, seen.edge, seen.proof, heights, edges, known)
     row, column = seen.first
     return ElevationGrid(np.array([column * seen.spacing, row * seen.spacing, seen.spacing]), heights, edges)
 
@@ -66,13 +66,11 @@ class SeenElevation:
 
 # --- kernels ---------------------------------------------------------------------------------------
 @kernel
-def write_grid(cells, first, edge, care, heights, edges, known):
+def write_grid(cells, first, edge, proof, heights, edges, known):
     """Writes heights [m], edges and what is known (0, 1) of a map's window, in the order of the world.
 
-    `care`: ground is what has so many more hits than looks through; so many cells around what is hidden are
-    edges, and where it is more than one, around all that is unknown.
+    Ground is what has so many more hits than looks through as `proof` says.
     """
-    proof, rim = care
     n = cells.shape[0]
     for u in range(n):
         i, before = slot(first[0] + u, n), slot(first[1], n)
@@ -83,9 +81,9 @@ def write_grid(cells, first, edge, care, heights, edges, known):
             heights[u, v] = cells[i, j, HIGH] if split else cells[i, j, HEIGHT]
             edges[u, v] = 1.0 if split else 0.0
     hidden = np.zeros((n, n), np.uint8)
-    somewhere = fill(heights, known, edge, rim, hidden)
+    somewhere = fill(heights, known, edge, proof > -math.inf, hidden)
     mark_breaks(heights, known, edge, edges, cells, first)
-    mark_rims(hidden, rim, edges)
+    mark_rims(hidden, edges)
     for u in range(n):
         for v in range(n):
             edges[u, v] = max(edges[u, v], 1.0 - known[u, v])
@@ -93,11 +91,11 @@ def write_grid(cells, first, edge, care, heights, edges, known):
 
 
 @kernel
-def fill(heights, known, edge, rim, hidden):
+def fill(heights, known, edge, doubts, hidden):
     """Gives unknown cells the height of the nearest known one in their row or column; bridges small gaps.
 
     Those with nothing known in either stay NaN; a height that is known is given for them. Bridged ones become
-    known; `hidden` are those in gaps wider than that along both, or with a `rim` of more than one all others.
+    known; `hidden` are those in gaps wider than that along both, or, to one who `doubts`, all others.
     """
     n, last = heights.shape[0], 0.0
     west, south = np.empty((n, n), np.int16), np.empty((n, n), np.int16)
@@ -116,7 +114,7 @@ def fill(heights, known, edge, rim, hidden):
             north[v] += 1
             east += 1
             w, s = west[u, v], south[u, v]
-            hidden[u, v] = rim > 1 or min(w + east, s + north[v]) > BRIDGED + 1
+            hidden[u, v] = doubts or min(w + east, s + north[v]) > BRIDGED + 1
             near = min(w, east, s, north[v])
             if near >= FAR:
                 heights[u, v] = math.nan
@@ -137,17 +135,17 @@ def fill(heights, known, edge, rim, hidden):
 
 
 @kernel
-def mark_rims(hidden, rim, edges):
-    """Makes edges of the cells up to `rim` away from those that are `hidden`."""
+def mark_rims(hidden, edges):
+    """Makes edges of the cells up to `MARGIN` away from those that are `hidden`."""
     n = hidden.shape[0]
-    for u in range(rim, n - rim):
-        for v in range(rim, n - rim):
+    for u in range(MARGIN, n - MARGIN):
+        for v in range(MARGIN, n - MARGIN):
             if not hidden[u, v] or (
                 hidden[u, v - 1] and hidden[u, v + 1] and hidden[u - 1, v] and hidden[u + 1, v]
             ):
                 continue
-            for du in range(-rim, rim + 1):
-                for dv in range(abs(du) - rim, rim - abs(du) + 1):
+            for du in range(-MARGIN, MARGIN + 1):
+                for dv in range(abs(du) - MARGIN, MARGIN - abs(du) + 1):
                     edges[u + du, v + dv] = 1.0
 
 
