@@ -27,8 +27,11 @@ COMMANDS = {
         "the whole story: a robot crosses a field, learns, and crosses another one",
         "Without arguments and without network: go2 walks from (0, 0) to (6, 0) among blocks, over the low "
         "ones and around the high ones, by the numerical controller. Then it goes to school, which takes "
-        "about a minute, and crosses another field by what it has learned. Prints the figures of both trips "
-        "and leaves pictures, recordings, reports and the skillbook in a new folder runs/demo-NNN.",
+        "about a minute, and crosses another field by what it has learned. It has never been in either: it "
+        "knows what its camera shows. Then a bay lies in its way to (12, 0), twice: the second time it goes "
+        "by the map that it made the first time. Prints the figures of all trips and leaves pictures, "
+        "recordings, reports, the skillbook and the map in a new folder runs/demo-NNN; --json tells of the "
+        "second field. Exit code 0: it arrives every time; 1: it does not.",
         ("gaitwright demo", "gaitwright demo --seed 3 --out runs/three", "gaitwright demo --json -"),
     ),
     "mission": Command(

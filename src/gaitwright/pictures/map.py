@@ -23,6 +23,8 @@ from gaitwright.record.rows import parts
 
 BODIES = 300
 """Outlines of the body at most."""
+NAMED = 11
+"""Things in a line of the legend at most."""
 AT_ONCE = 8192
 """Ticks that are searched for footfalls at once."""
 
@@ -53,14 +55,21 @@ def draw_map(ax: Axes, r: Recording, scene: Scene) -> None:
         Line2D([], [], marker="*" if r.arrived else "X", markersize=14, label=done, **marker),
         Line2D([], [], marker=".", color="none", markerfacecolor=INK, markeredgewidth=0, label="footfalls"),
     ]
-    if scene.solids:
+    around = scene.obstacles(r.robot.step_limit)
+    if any(solid not in around for solid in scene.solids):
         handles.append(Patch(facecolor="#d9c9a8", edgecolor=LOW_EDGE, label="low: stepped on"))
     if scene.holes:
         handles.append(Patch(facecolor=PIT, label="hole"))
-    if scene.obstacles(r.robot.step_limit):
+    if around:
         handles.append(Patch(**HIGH, label="high: walked around"))
+    rows = -(-len(handles) // NAMED)
     ax.legend(
-        handles=handles, loc="upper left", ncols=len(handles), frameon=True, framealpha=0.92, edgecolor="none"
+        handles=handles,
+        loc="upper left",
+        ncols=-(-len(handles) // rows),
+        frameon=True,
+        framealpha=0.92,
+        edgecolor="none",
     )
 
 
