@@ -115,6 +115,12 @@ def test_hind_feet_are_judged_alone():
     assert hind_claim([boxed(), dragged(2)], robot).agrees is False
 
 
+def test_a_walk_that_ended_before_it_met_anything_agrees_with_nothing():
+    robot, along = robot_called("go2"), [boxed(np.zeros_like)]
+    found = (room_claim(along, ""), order_claim(along), hind_claim(along, robot), tracking_claim(along))
+    assert [claim.agrees for claim in found] == 4 * [False]
+
+
 def test_a_foot_that_stays_up_behind_an_obstacle_does_not_track_the_ground():
     usual = [boxed(np.zeros_like, top=0.07) for _ in range(4)]
     assert tracking_claim([*usual, boxed(), boxed(np.zeros_like, top=0.072)]).agrees

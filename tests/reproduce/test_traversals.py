@@ -77,10 +77,14 @@ def test_a_way_that_is_made_again_is_shorter_and_optimal():
 
 
 def test_who_does_not_arrive_is_named():
+    assert went((1, 2), [(0.0, 0.0), (3.0, 0.0)], 2.0).ratio == 1.5
+    assert went((1, 2), [(0.0, 0.0), (3.0, 0.0)], 2.0, arrived=False).ratio is None
+    assert went((1, 2), [(0.0, 0.0), (3.0, 0.0)], float("nan")).ratio is None
     assert figure.always_a_path(runs()).agrees
     lost = figure.always_a_path(runs(arrived=False))
     assert lost.agrees is False and "the thesis's rule, 1 → 2: it ended" in lost.ours
     assert figure.shorter(runs(arrived=False)).agrees is False
+    assert figure.optimal(runs(arrived=False)).agrees is False
 
 
 def test_a_way_over_fresh_ground_is_no_way_walked_before():

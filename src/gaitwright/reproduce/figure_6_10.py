@@ -12,7 +12,7 @@ from gaitwright.ground.splines import spline_field
 from gaitwright.ground.terrain import Box
 from gaitwright.model.robot import Robot
 from gaitwright.reproduce.claim import Claim, Picture, Reproduction, Say
-from gaitwright.reproduce.seen_walk import SeenWalk, leans, paths_as_plain, seen_walk
+from gaitwright.reproduce.seen_walk import ANALYSED, SeenWalk, leans, paths_as_plain, seen_walk
 from gaitwright.reproduce.stride_claims import (
     NEAR,
     balance_claim,
@@ -52,9 +52,7 @@ ABOUT = (
     "as in figure 6.4: a hill of 20 cm, and a plateau on which blocks make two steps of 8 cm up and two "
     "down. It knows nothing of them: a camera on its back looks ten times a second. The leg cycle of these "
     "strides goes up, forward and down; the numerical controller raises it where the ground asks for it.",
-    "The terrain curves are what the terrain scanner had seen of the ground when it last looked, along the "
-    "line of the left feet and that of the right ones. The scan of the thesis has no curves and its text no"
-    " numbers: its sentences are judged.",
+    ANALYSED,
 )
 
 
@@ -153,10 +151,10 @@ def picture(walk: SeenWalk, onto: Sequence[Stride]) -> Picture:
 
         title = "Figure 6.10 anew: climbing strides over a hill and steps, off-line analysis"
         line = "Go2 climbs at 0.2 m/s, its camera on; heights are drawn twice as large as lengths"
-        first = [next(stride for stride in onto if stride.leg == leg) for leg in (0, 1)]
         closer = [
-            (f"{walk.robot.legs[stride.leg]} onto the first step, heights as lengths", stride)
-            for stride in first
+            (f"{walk.robot.legs[leg]} onto the first step, heights as lengths", stride)
+            for leg in (0, 1)
+            for stride in [one for one in onto if one.leg == leg][:1]
         ]
         draw_side_views(path, (title, line), walk, closer, leaning=True)
 

@@ -182,13 +182,13 @@ def shorter(runs: Runs) -> Claim:
 
 def optimal(runs: Runs) -> Claim:
     """Whether ways are optimal once the map is known."""
-    again = {name: [one.length / one.shortest for one in run[SHOWN - 1 :]] for name, run in runs.items()}
-    ours = "; ".join(f"{NAMES[name]}: {', '.join(f'{k:.3f}' for k in some)}" for name, some in again.items())
+    again = {name: [one.ratio for one in run[SHOWN - 1 :]] for name, run in runs.items()}
+    ours = "; ".join(f"{NAMES[name]}: {', '.join(map(times, some))}" for name, some in again.items())
     return Claim(
         "all three routes again, as shares of the shortest ways there are",
         "after this stage the robot traverses along the optimal paths",
         ours,
-        all(ratio <= OPTIMAL for some in again.values() for ratio in some),
+        all(ratio is not None and ratio <= OPTIMAL for some in again.values() for ratio in some),
         f"at most {OPTIMAL:g}",
         again,
     )
@@ -210,6 +210,11 @@ def walked_before(runs: Runs) -> Claim:
     )
 
 
+def times(ratio: float | None) -> str:
+    """A ratio in words."""
+    return "–" if ratio is None else f"{ratio:.2f}"
+
+
 # --- what is shown ---------------------------------------------------------------------------------
 def trip_grid(runs: Runs, known: Known) -> Grid:
     """A line for each traversal."""
@@ -218,7 +223,7 @@ def trip_grid(runs: Runs, known: Known) -> Grid:
             f"{NAMES[name]}, {one.route[0]} → {one.route[1]}",
             f"{one.length:.2f}",
             f"{one.shortest:.2f}",
-            f"{one.length / one.shortest:.2f}",
+            times(one.ratio),
             f"{one.seconds:.1f}",
             str(count),
         )
@@ -238,8 +243,9 @@ def picture(robot: Robot, scene: Scene, runs: Runs, known: Known, edges: int) ->
         rows = {
             NAMES[name]: [
                 (
-                    f"{one.route[0]} → {one.route[1]}: {one.length:.1f} m, "
-                    f"{one.length / one.shortest:.2f} × shortest",
+                    f"{one.route[0]} → {one.route[1]}: {one.length:.1f} m, {times(one.ratio)} × shortest"
+                    if one.arrived
+                    else f"{one.route[0]} → {one.route[1]}: {one.length:.1f} m, not there",
                     f"the map after it: {count} of {edges} edges",
                     one,
                 )

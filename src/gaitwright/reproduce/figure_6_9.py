@@ -11,7 +11,7 @@ from gaitwright.ground.terrain import Box, Flat
 from gaitwright.learning.operator_lessons import Edit, learned_from
 from gaitwright.model.robot import Robot
 from gaitwright.reproduce.claim import Claim, Picture, Reproduction, Say
-from gaitwright.reproduce.seen_walk import SeenWalk, paths_as_plain, seen_walk
+from gaitwright.reproduce.seen_walk import ANALYSED, SeenWalk, paths_as_plain, seen_walk
 from gaitwright.reproduce.stride_claims import (
     balance_claim,
     curve_claim,
@@ -53,9 +53,7 @@ ABOUT = (
     "nothing of them: a camera on its back looks ten times a second. How a leg gets over an obstacle is one"
     " rule of type III, learned from one edit in the manner of figure 5.2 on one leg in level walk, and "
     "applied to every leg.",
-    "The terrain curves are what the terrain scanner had seen of the ground when it last looked, along the "
-    "line of the left feet and that of the right ones. The scan of the thesis has no curves and its text no"
-    " numbers: its sentences are judged.",
+    ANALYSED,
 )
 
 
@@ -140,8 +138,9 @@ def picture(walk: SeenWalk, strides: Sequence[Stride]) -> Picture:
         title = "Figure 6.9 anew: feet among small obstacles, off-line analysis"
         line = "Go2 walks straight at 0.25 m/s, its camera on; heights are drawn twice as large as lengths"
         closer = [
-            (f"{walk.robot.legs[0]} {what}, heights as lengths", highest(strides, does))
+            (f"{walk.robot.legs[0]} {what}, heights as lengths", stride)
             for what, does in (("over a bar", OVER), ("onto a block", ONTO))
+            for stride in highest(strides, does)
         ]
         draw_side_views(path, (title, line), walk, closer)
 
@@ -149,6 +148,7 @@ def picture(walk: SeenWalk, strides: Sequence[Stride]) -> Picture:
     return Picture("figure-6.9.png", caption, draw)
 
 
-def highest(strides: Sequence[Stride], does: str) -> Stride:
-    """The stride of the front left foot that does something, over or onto the highest thing."""
-    return max((s for s in strides if s.leg == 0 and s.does == does), key=lambda s: float(s.ground.max()))
+def highest(strides: Sequence[Stride], does: str) -> list[Stride]:
+    """The stride of the front left foot over or onto the highest thing; none where it came to none."""
+    own = [stride for stride in strides if stride.leg == 0 and stride.does == does]
+    return sorted(own, key=lambda stride: -float(stride.ground.max()))[:1]

@@ -26,6 +26,12 @@ from gaitwright.session import DT, Session, record
 from gaitwright.signals import Elevation, GroundMap, Mission
 from gaitwright.stages import Chooser
 
+ANALYSED = (
+    "The terrain curves are what the terrain scanner had seen of the ground when it last looked, along the "
+    "line of the left feet and that of the right ones. The scan of the thesis has no curves and its text "
+    "no numbers: its sentences are judged."
+)
+"""What has to be known to read a walk."""
 FINE = 0.01
 """From place to place of a terrain curve [m]."""
 EVERY = 2
@@ -73,7 +79,7 @@ class Leans(NamedTuple):
     """Height of the body over the middle of these places [m]."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class SeenWalk:
     """What is left of a walk."""
 

@@ -56,10 +56,7 @@ def draw_side_views(
     tall = HIGHER * (high - low) * across / (ends[1] - ends[0])
     second = LEANING if leaning else tall
     sheet = Sheet(height=TOP + tall + second + 2 * BETWEEN + ZOOM + BETWEEN + LEGEND)
-    for y, text, size, weight in ((0.42, words[0], 19, "bold"), (0.74, words[1], 12, "normal")):
-        sheet.figure.text(
-            LEFT / WIDTH, 1 - y / sheet.height, text, fontsize=size, fontweight=weight, color=INK
-        )
+    sheet.head(*words)
     places = (sheet.axes(LEFT, TOP, across, tall), sheet.axes(LEFT, TOP + tall + BETWEEN, across, second))
     left, right = sides_of(walk)
     draw_side(places[0], walk, left, leaning)
@@ -69,7 +66,7 @@ def draw_side_views(
         draw_side(places[1], walk, right, leaning)
     for ax in places:
         ax.set(xlim=ends, xlabel="x [m]")
-    share = (across - APART * (len(closer) - 1)) / len(closer)
+    share = (across - APART * (len(closer) - 1)) / max(len(closer), 1)
     for k, (title, stride) in enumerate(closer):
         top = TOP + tall + second + 2 * BETWEEN
         ax = sheet.axes(LEFT + k * (share + APART), top, share, ZOOM)

@@ -72,6 +72,8 @@ def rests_claim(walk: SeenWalk) -> Claim:
 def room_claim(strides: Sequence[Stride], thesis: str) -> Claim:
     """Whether feet were above what they went over when they came to it."""
     met = [stride for stride in strides if stride.does in OBSTACLES]
+    if not met:
+        return none_met("an obstacle within the forward stroke", thesis)
     room = np.array([stride.room for stride in met])
     hit = sum(stride.hit for stride in met)
     touched = f"; {hit} touched it on the way up" if hit else "; none touched it before"
@@ -89,6 +91,8 @@ def room_claim(strides: Sequence[Stride], thesis: str) -> Claim:
 def order_claim(strides: Sequence[Stride]) -> Claim:
     """Whether a foot goes up, forward and down, in this order."""
     forward = np.array([stride.forward for stride in strides if stride.does in OBSTACLES])
+    if not len(forward):
+        return none_met("its order", "up, forward, down")
     up, down = forward[:, 0] <= FIRST, forward[:, 1] >= LAST
     b, c = np.median(forward, axis=0)
     return Claim(
@@ -108,6 +112,8 @@ def tracking_claim(strides: Sequence[Stride]) -> Claim:
     again = np.array(
         [b.height for a, b in pairwise(strides) if a.leg == b.leg and a.does != ALONG and b.is_usual]
     )
+    if not len(again):
+        return none_met("tracking of the ground", "behind an obstacle the leg switches back")
     middle = float(np.median(heights))
     return Claim(
         "tracking of the ground where nothing is in the way",
@@ -123,6 +129,8 @@ def tracking_claim(strides: Sequence[Stride]) -> Claim:
 def hind_claim(strides: Sequence[Stride], robot: Robot) -> Claim:
     """The same of the hind legs, which the camera does not see."""
     hind = [s for s in strides if s.does in OBSTACLES and robot.nominal_feet[s.leg, 0] < 0.0]
+    if not hind:
+        return none_met("hind legs", "do as the front ones")
     room = np.array([stride.room for stride in hind])
     return Claim(
         "hind legs",
@@ -157,6 +165,11 @@ def over_ground(walk: SeenWalk) -> Float[np.ndarray, "n legs"]:
     """Height of the feet's lowest points over the true ground straight below [m]."""
     x, y, z = np.moveaxis(walk.feet.place_w, -1, 0)
     return z - np.asarray(walk.scene.height(x, y), dtype=float)
+
+
+def none_met(what: str, thesis: str) -> Claim:
+    """A claim of a walk that met no obstacle: it ended before."""
+    return Claim(what, thesis, "no stride came over or onto one", False)
 
 
 # --- for the page -----------------------------------------------------------------------------------

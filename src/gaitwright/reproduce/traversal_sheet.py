@@ -36,10 +36,7 @@ def draw_traversals(
     high = wide * (y_max - y_min) / (x_max - x_min)
     each = HEAD + 2 * high + BETWEEN + BELOW
     sheet = Sheet(height=TOP + len(rows) * each + LEGEND)
-    for y, text, size, weight in ((0.42, words[0], 19, "bold"), (0.74, words[1], 12, "normal")):
-        sheet.figure.text(
-            LEFT / WIDTH, 1 - y / sheet.height, text, fontsize=size, fontweight=weight, color=INK
-        )
+    sheet.head(*words)
     for r, (name, row) in enumerate(rows.items()):
         top = TOP + r * each
         at = 1 - (top + 0.22) / sheet.height

@@ -50,6 +50,11 @@ class Traversal:
         """[m]"""
         return length_of(self.way)
 
+    @property
+    def ratio(self) -> float | None:
+        """Its length over the shortest; `None` where it did not arrive, or there is none."""
+        return self.length / self.shortest if self.arrived and self.shortest > 0.0 else None
+
     def plain(self) -> dict[str, Any]:
         """As plain JSON values [m, s]."""
         return {
