@@ -80,7 +80,7 @@ def smoothed(ring: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "n 2"]:
 def separate(outline: Float[np.ndarray, "rim 2"]) -> list[Float[np.ndarray, "corners 2"]]:
     """The rings of an outline, each closed."""
     known = np.isfinite(outline.sum(axis=1))
-    edges = np.flatnonzero(np.diff(np.pad(known, 1).astype(np.int8)))
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], known, [False]])))
     return [outline[start:end] for start, end in edges.reshape(-1, 2)]
 
 

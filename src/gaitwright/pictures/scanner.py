@@ -18,6 +18,7 @@ from gaitwright.perception.reach_outline import area_in, separate
 from gaitwright.perception.terrain_preview import AHEAD, TerrainPreview, corners_of
 from gaitwright.pictures import Sheet
 from gaitwright.pictures.ground import Extent, draw_relief, draw_things
+from gaitwright.pictures.map import trunk_corners
 from gaitwright.pictures.style import FAINT, INK, LEFT, WIDTH, dress
 from gaitwright.record.previews import series_of
 from gaitwright.record.recording import Recording
@@ -151,12 +152,10 @@ def draw_reach(ax: Axes, outline: np.ndarray, shade: str) -> None:
 
 def draw_body(ax: Axes, robot: Robot, held: TerrainPreview) -> None:
     """The trunk's outline, and where it heads."""
-    (cx, cy, _), (hx, hy, _) = robot.trunk
-    corners = np.array([[cx + sx * hx, cy + sy * hy] for sx, sy in ((1, 1), (-1, 1), (-1, -1), (1, -1))])
-    c, s = math.cos(held.yaw), math.sin(held.yaw)
-    turn = np.array([[c, s], [-s, c]])
+    corners, (c, s) = trunk_corners(robot), (math.cos(held.yaw), math.sin(held.yaw))
+    turn, (x, y) = np.array([[c, s], [-s, c]]), corners[[0, 3]].mean(axis=0)
     ax.add_patch(Polygon(corners @ turn + held.position_w[:2], facecolor=INK, alpha=0.10, zorder=4))
-    nose = np.array([[cx + hx, cy], [cx + hx + 0.45 * robot.height, cy]]) @ turn + held.position_w[:2]
+    nose = np.array([[x, y], [x + 0.45 * robot.height, y]]) @ turn + held.position_w[:2]
     ax.annotate(
         "", nose[1], nose[0], arrowprops={"arrowstyle": "-|>", "color": INK, "linewidth": 2.0}, zorder=7
     )
