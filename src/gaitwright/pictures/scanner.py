@@ -20,7 +20,7 @@ from gaitwright.pictures import Sheet
 from gaitwright.pictures.ground import Extent, draw_relief, draw_things
 from gaitwright.pictures.map import trunk_corners
 from gaitwright.pictures.style import FAINT, INK, LEFT, WIDTH, dress
-from gaitwright.record.previews import series_of
+from gaitwright.record.previews import PREFIX, series_of
 from gaitwright.record.recording import Recording
 
 LEGS = ("#1971c2", "#e8590c", "#2f9e44", "#862e9c", "#0c8599", "#c2255c", "#66a80f", "#e67700")
@@ -250,12 +250,12 @@ def draw_table(ax: Axes, robot: Robot, held: TerrainPreview) -> None:
 
 def line_of(robot: Robot, held: TerrainPreview, leg: int) -> tuple[str, ...]:
     """What the table says of a foot."""
-    mean = held.elevation[leg]
+    mean, area = held.elevation[leg], area_in(held.reach_w[leg])
     return (
         robot.legs[leg],
         "yes" if held.supporting[leg] else "–",
         "yes" if held.critical[leg] else "–",
-        f"{area_in(held.reach_w[leg]):.3g} m²",
+        f"{area:.3g} m²" if area else "–",
         degrees(held.slope[leg]),
         f"{round(mean, 3) + 0.0:.3f} m" if math.isfinite(mean) else "?",
     )
@@ -265,7 +265,7 @@ def draw_margin(ax: Axes, recording: Recording, held: TerrainPreview) -> None:
     """How far inside the support polygon the centre of gravity was, over the run."""
     assert recording.previews is not None
     series = series_of(recording.previews, recording.robot.n)
-    time, margin = series["scanner_time"][:], series["scanner_margin"][:]
+    time, margin = (series[PREFIX + name][:] for name in ("time", "margin"))
     ax.axhline(0.0, color=FAINT, linewidth=0.8)
     ax.plot(time, margin, color=NOW, linewidth=1.2)
     ax.axvline(held.time, color=CRITICAL, linewidth=1.2)

@@ -36,7 +36,7 @@ def preview_of(robot: Robot, lap: Lap, mind: Mind) -> TerrainPreview:
     memory, target = mind.memories.gait, lap.target
     if not isinstance(memory, GaitMemory) or memory.gait is None:  # a planned climb has no gait
         return preview(robot, lap.sensed, mind.ground)
-    steps = Steps(float(target.phase), memory.gait, target.stance, memory.state.foothold.copy())
+    steps = Steps(float(target.phase), memory.gait, target.stance, memory.state.foothold)
     return preview(robot, lap.sensed, mind.ground, steps)
 
 
@@ -57,7 +57,7 @@ class Previewer:
 
     def rows(self) -> Rows | None:
         """What was taken so far; `None` where that is nothing."""
-        return None if self.due == -math.inf else self.writer.table()
+        return self.writer.table() if self.writer.newest else None
 
 
 def preview_at(rows: Rows, time: float) -> TerrainPreview:
