@@ -81,6 +81,12 @@ def test_a_hole_is_left_out_and_runs_the_other_way_round():
     assert area_in(outline) == pytest.approx(math.pi * (17.0**2 - 8.0**2), rel=0.08)
 
 
+def test_what_is_no_ring_has_no_area():
+    outline = np.full((RIM, 2), np.nan)
+    outline[[0, 2, 3, 5, 6, 7]] = np.arange(12.0).reshape(6, 2)
+    assert not separate(outline) and area_in(outline) == 0.0
+
+
 def test_whatever_there_is_fits_in_the_rows_there_are():
     rng = np.random.default_rng(1)
     for share in (0.0, 0.02, 0.2, 0.5, 0.8, 0.98, 1.0):

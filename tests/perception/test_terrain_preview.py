@@ -299,6 +299,10 @@ def test_of_ground_that_is_not_known_nothing_is_said():
     half = held_with(Half(0.5 * (front + hind)))
     assert np.isnan(half.slope[:2]).all() and np.isfinite(half.slope[2:]).all()
     assert np.nanmax(half.reach_w[..., 0]) < 0.5 * (front + hind) + moment.robot.leg_length / 20
+    step = SPACING * moment.robot.height
+    for samples, told in ((2, False), (3, True)):
+        few = held_with(Half(front + (samples - 0.5) * step))
+        assert (math.isfinite(few.slope[0]), math.isfinite(few.elevation[0])) == (told, told)
     assert np.isnan(held_with(None).reach_w).all() and np.isnan(held_with(None).elevation).all()
 
 

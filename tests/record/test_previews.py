@@ -21,7 +21,7 @@ from gaitwright.perception.reach_outline import RIM
 from gaitwright.perception.terrain_preview import LAYOUT, TerrainPreview, corners_of
 from gaitwright.plant.kinematic import KinematicPlant
 from gaitwright.plant.mujoco.simulation import MujocoPlant
-from gaitwright.record import rows
+from gaitwright.record import npz, previews, rows
 from gaitwright.record.mcap_export import export_mcap
 from gaitwright.record.preview_facts import facts_of
 from gaitwright.record.previews import EVERY, PREFIX, preview_at, preview_of, previews_in, shapes, times_of
@@ -143,8 +143,9 @@ def test_previews_that_no_scanner_held_are_refused(name: str, change, told: str,
 
 
 def test_of_a_long_run_old_previews_go_to_a_file(recording: Recording, tmp_path: Path, monkeypatch):
-    monkeypatch.setattr(rows, "IN_MEMORY", 1)
+    monkeypatch.setattr(previews, "IN_MEMORY", 1)
     monkeypatch.setattr(rows, "BLOCK", 8)
+    monkeypatch.setattr(npz, "PART", 100)
     filed = record(session(), 1, "stairs", previews=True)
     assert isinstance(filed.previews, rows.Table)
     for one, other in zip(previews_in(filed.previews), previews_in(recording.previews), strict=True):

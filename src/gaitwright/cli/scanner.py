@@ -5,6 +5,9 @@ import math
 from argparse import Namespace
 from pathlib import Path
 
+import numpy as np
+from jaxtyping import Float
+
 from gaitwright.cli.console import remark, show_pairs, show_table, working
 from gaitwright.cli.output import check_json, check_picture, write_json
 from gaitwright.cli.trips import has
@@ -73,7 +76,7 @@ def where(margin: float) -> str:
     return f"{abs(margin):.3f} m {'inside' if margin >= 0.0 else 'outside'} the support polygon"
 
 
-def points(corners) -> str:
+def points(corners: Float[np.ndarray, "n 2"]) -> str:
     """The corners of a polygon."""
     return " ".join(f"({x:.3f}, {y:.3f})" for x, y in corners) or "none"
 
@@ -82,13 +85,14 @@ def row_of(recording: Recording, held: TerrainPreview, leg: int) -> tuple[str, .
     """A line of the table."""
     (x, y, _), (hold_x, hold_y, _) = held.feet_w[leg], held.footholds_w[leg]
     slope, height = held.slope[leg], held.elevation[leg]
+    area = area_in(held.reach_w[leg])
     carries = "yes, critical" if held.critical[leg] else "yes" if held.supporting[leg] else "–"
     return (
         recording.robot.legs[leg],
         f"{x:.2f}, {y:.2f}",
         carries,
         f"{hold_x:.2f}, {hold_y:.2f}" if math.isfinite(hold_x) else "–",
-        f"{area_in(held.reach_w[leg]):.3g} m²",
+        f"{area:.3g} m²" if area else "–",
         f"{round(math.degrees(slope), 1) + 0.0:.1f}°" if math.isfinite(slope) else "not known",
         f"{round(height, 3) + 0.0:.3f} m" if math.isfinite(height) else "not known",
     )

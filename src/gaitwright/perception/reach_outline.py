@@ -78,10 +78,10 @@ def smoothed(ring: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "n 2"]:
 
 
 def separate(outline: Float[np.ndarray, "rim 2"]) -> list[Float[np.ndarray, "corners 2"]]:
-    """The rings of an outline, each closed."""
+    """The rings of an outline, each closed, so of four rows or more."""
     known = np.isfinite(outline.sum(axis=1))
-    edges = np.flatnonzero(np.diff(np.pad(known, 1).astype(np.int8)))
-    return [outline[start:end] for start, end in edges.reshape(-1, 2)]
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], known, [False]])))
+    return [outline[start:end] for start, end in edges.reshape(-1, 2) if end - start > 3]
 
 
 def area_in(outline: Float[np.ndarray, "rim 2"]) -> float:

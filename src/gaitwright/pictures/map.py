@@ -13,6 +13,7 @@ from matplotlib.patches import Patch, Polygon, Rectangle
 from gaitwright.ground.holes import filled
 from gaitwright.ground.scene import Scene
 from gaitwright.model.kinematics import feet
+from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import rotation
 from gaitwright.pictures.ground import HIGH, LOW_EDGE, PIT, draw_things
 from gaitwright.pictures.style import EARTH, INK, MAP, SKILLS, dress
@@ -110,8 +111,7 @@ def draw_footprints(ax: Axes, r: Recording) -> None:
 
 def draw_bodies(ax: Axes, r: Recording, way: np.ndarray) -> None:
     """The outline of the body at even distances, for its size and heading; of a long way some of them."""
-    (cx, cy, _), (hx, hy, _) = r.robot.trunk
-    corners = np.array([[cx + sx * hx, cy + sy * hy] for sx, sy in ((1, 1), (-1, 1), (-1, -1), (1, -1))])
+    corners = trunk_corners(r.robot)
     yaw = heading_over_time(shown(r.channel("orientation_wb")))
     gone = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(way, axis=0), axis=1))])
     apart = max(2.5 * r.robot.body_length, gone[-1] / BODIES)
@@ -119,6 +119,12 @@ def draw_bodies(ax: Axes, r: Recording, way: np.ndarray) -> None:
         c, s = np.cos(yaw[tick]), np.sin(yaw[tick])
         outline = corners @ np.array([[c, s], [-s, c]]) + way[tick]
         ax.add_patch(Polygon(outline, facecolor=INK, edgecolor=INK, alpha=0.2, linewidth=0, zorder=3.5))
+
+
+def trunk_corners(robot: Robot) -> np.ndarray:
+    """The outline of a robot's trunk seen from above, base axes x, y `(4, 2)` [m]."""
+    (cx, cy, _), (hx, hy, _) = robot.trunk
+    return np.array([[cx + sx * hx, cy + sy * hy] for sx, sy in ((1, 1), (-1, 1), (-1, -1), (1, -1))])
 
 
 def footprints(r: Recording) -> Iterator[tuple[float, float]]:

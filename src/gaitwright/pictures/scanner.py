@@ -18,8 +18,9 @@ from gaitwright.perception.reach_outline import area_in, separate
 from gaitwright.perception.terrain_preview import AHEAD, TerrainPreview, corners_of
 from gaitwright.pictures import Sheet
 from gaitwright.pictures.ground import Extent, draw_relief, draw_things
+from gaitwright.pictures.map import trunk_corners
 from gaitwright.pictures.style import FAINT, INK, LEFT, WIDTH, dress
-from gaitwright.record.previews import series_of
+from gaitwright.record.previews import PREFIX, series_of
 from gaitwright.record.recording import Recording
 
 LEGS = ("#1971c2", "#e8590c", "#2f9e44", "#862e9c", "#0c8599", "#c2255c", "#66a80f", "#e67700")
@@ -151,12 +152,10 @@ def draw_reach(ax: Axes, outline: np.ndarray, shade: str) -> None:
 
 def draw_body(ax: Axes, robot: Robot, held: TerrainPreview) -> None:
     """The trunk's outline, and where it heads."""
-    (cx, cy, _), (hx, hy, _) = robot.trunk
-    corners = np.array([[cx + sx * hx, cy + sy * hy] for sx, sy in ((1, 1), (-1, 1), (-1, -1), (1, -1))])
-    c, s = math.cos(held.yaw), math.sin(held.yaw)
-    turn = np.array([[c, s], [-s, c]])
+    corners, (c, s) = trunk_corners(robot), (math.cos(held.yaw), math.sin(held.yaw))
+    turn, (x, y) = np.array([[c, s], [-s, c]]), corners[[0, 3]].mean(axis=0)
     ax.add_patch(Polygon(corners @ turn + held.position_w[:2], facecolor=INK, alpha=0.10, zorder=4))
-    nose = np.array([[cx + hx, cy], [cx + hx + 0.45 * robot.height, cy]]) @ turn + held.position_w[:2]
+    nose = np.array([[x, y], [x + 0.45 * robot.height, y]]) @ turn + held.position_w[:2]
     ax.annotate(
         "", nose[1], nose[0], arrowprops={"arrowstyle": "-|>", "color": INK, "linewidth": 2.0}, zorder=7
     )
@@ -251,12 +250,12 @@ def draw_table(ax: Axes, robot: Robot, held: TerrainPreview) -> None:
 
 def line_of(robot: Robot, held: TerrainPreview, leg: int) -> tuple[str, ...]:
     """What the table says of a foot."""
-    mean = held.elevation[leg]
+    mean, area = held.elevation[leg], area_in(held.reach_w[leg])
     return (
         robot.legs[leg],
         "yes" if held.supporting[leg] else "–",
         "yes" if held.critical[leg] else "–",
-        f"{area_in(held.reach_w[leg]):.3g} m²",
+        f"{area:.3g} m²" if area else "–",
         degrees(held.slope[leg]),
         f"{round(mean, 3) + 0.0:.3f} m" if math.isfinite(mean) else "?",
     )
@@ -266,7 +265,7 @@ def draw_margin(ax: Axes, recording: Recording, held: TerrainPreview) -> None:
     """How far inside the support polygon the centre of gravity was, over the run."""
     assert recording.previews is not None
     series = series_of(recording.previews, recording.robot.n)
-    time, margin = series["scanner_time"][:], series["scanner_margin"][:]
+    time, margin = (series[PREFIX + name][:] for name in ("time", "margin"))
     ax.axhline(0.0, color=FAINT, linewidth=0.8)
     ax.plot(time, margin, color=NOW, linewidth=1.2)
     ax.axvline(held.time, color=CRITICAL, linewidth=1.2)

@@ -56,26 +56,26 @@ def write_previews(writer: Writer, r: Recording, scene: Scene | str) -> None:
 
 def preview_update(robot: Robot, held: TerrainPreview, scene: Scene | str) -> dict[str, Any]:
     """What is drawn of a preview, in place of the one before."""
-    lines = [line(ring, held, scene, GREY) for outline in held.reach_w for ring in separate(outline)]
+    drawn = [(ring, GREY) for outline in held.reach_w for ring in separate(outline)]
     for polygon, shade in ((held.coming_w, BLUE), (held.support_w, GREEN)):
         corners = corners_of(polygon)
         if len(corners) > 1:
-            lines.append(line(np.concatenate([corners, corners[:1]]), held, scene, shade))
+            drawn.append((np.concatenate([corners, corners[:1]]), shade))
+    paths = [held.centre_w[None], *(path for path, _ in drawn)]
+    ends = np.cumsum([len(path) for path in paths])[:-1]
+    centre, *lifted = np.split(over_ground(np.concatenate(paths), held, scene), ends)
     size = BALL * float(robot.foot_radius.max())
-    balls = [
-        ball(place, size, RED if critical else GREEN)
-        for place, critical in zip(held.feet_w[held.supporting], held.critical[held.supporting], strict=True)
-    ]
-    centre = np.append(held.centre_w, over_ground(held.centre_w[None], held, scene))
-    balls.append(ball(centre, size, DARK))
+    feet = zip(held.feet_w[held.supporting], held.critical[held.supporting], strict=True)
+    balls = [ball(place, size, RED if critical else GREEN) for place, critical in feet]
+    balls.append(ball(centre[0], size, DARK))
+    lines = [line(places, shade) for places, (_, shade) in zip(lifted, drawn, strict=True)]
     return update([entity("support", held.time, lines=lines, spheres=balls)])
 
 
-def line(points: np.ndarray, held: TerrainPreview, scene: Scene | str, shade: Colour) -> dict[str, Any]:
-    """A line over points `(n, 2)` on the ground."""
-    heights = over_ground(points, held, scene)
-    places = [point(*place) for place in np.column_stack([points, heights]).round(4).tolist()]
-    drawn = {"type": 0, "pose": pose(), "thickness": 2.0, "scale_invariant": True, "points": places}
+def line(places: np.ndarray, shade: Colour) -> dict[str, Any]:
+    """A line over places `(n, 3)`."""
+    points = [point(*place) for place in places.round(4).tolist()]
+    drawn = {"type": 0, "pose": pose(), "thickness": 2.0, "scale_invariant": True, "points": points}
     return drawn | {"color": colour(shade), "colors": [], "indices": []}
 
 
@@ -85,8 +85,10 @@ def ball(place: np.ndarray, size: float, shade: Colour) -> dict[str, Any]:
 
 
 def over_ground(points: np.ndarray, held: TerrainPreview, scene: Scene | str) -> np.ndarray:
-    """Heights a little over the ground at points `(n, 2)`; without a scene that of the feet on it."""
+    """Points `(n, 2)` a little over the ground, `(n, 3)`; without a scene at the height of the feet on it."""
     if isinstance(scene, Scene):
-        return np.asarray(scene.height(*points.T), dtype=float) + ABOVE
-    feet = held.feet_w[held.supporting] if held.supporting.any() else held.feet_w
-    return np.full(len(points), feet[:, 2].mean() + ABOVE)
+        heights = np.asarray(scene.height(*points.T), dtype=float)
+    else:
+        feet = held.feet_w[held.supporting] if held.supporting.any() else held.feet_w
+        heights = np.full(len(points), feet[:, 2].mean())
+    return np.column_stack([points, heights + ABOVE])

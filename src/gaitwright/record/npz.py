@@ -17,7 +17,7 @@ from numpy.lib import format as npy
 
 from gaitwright.errors import BadFile, short
 from gaitwright.files import fitting, opened_file, whole
-from gaitwright.record.rows import BLOCK, Series, parts
+from gaitwright.record.rows import BLOCK, PART, Series, parts
 
 HEADER = "header"
 MAX_BYTES = 4_000_000_000
@@ -27,6 +27,8 @@ MOST_PACKED, PLENTY = 100, 50_000_000
 MAX_HEADER = 1_000_000
 MAX_HEAD = 10_000
 """Letters in which an array says what it is."""
+WIDE = 16
+"""Numbers in a row up to which rows are written `PART` at a time; of wider ones fewer."""
 MAX_TICKS = 10_000_000
 """More than a simulated hour at any step of ours."""
 BROKEN = (
@@ -60,9 +62,10 @@ def write_array(archive: zipfile.ZipFile, name: str, series: Series) -> None:
     none: np.ndarray = series[0:0]
     shape = (len(series), *none.shape[1:])
     about = {"descr": npy.dtype_to_descr(none.dtype), "fortran_order": False, "shape": shape}
+    at_once = PART // max(1, math.prod(none.shape[1:]) // WIDE)
     with archive.open(f"{name}.npy", "w", force_zip64=True) as file:
         npy.write_array_header_1_0(file, about)
-        for part in parts(len(series)):
+        for part in parts(len(series), max(1, at_once)):
             file.write(series[part].tobytes())
 
 

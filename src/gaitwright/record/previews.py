@@ -15,10 +15,12 @@ from gaitwright.model.robot import Robot
 from gaitwright.perception.terrain_preview import LAYOUT, Steps, TerrainPreview, preview, preview_in
 from gaitwright.record.checked import BLOWN_UP
 from gaitwright.record.npz import holds, read_blocks
-from gaitwright.record.rows import Lazy, Table, Writer
+from gaitwright.record.rows import BLOCK, Lazy, Table, Writer, parts
 
 EVERY = 0.05
 """From one preview to the next [s]."""
+IN_MEMORY = 4_000_000
+"""What is newest stays in memory beside the laps [bytes]."""
 PREFIX = "scanner_"
 """Of the names that their fields have in a file."""
 OPEN = (
@@ -34,7 +36,7 @@ def preview_of(robot: Robot, lap: Lap, mind: Mind) -> TerrainPreview:
     memory, target = mind.memories.gait, lap.target
     if not isinstance(memory, GaitMemory) or memory.gait is None:  # a planned climb has no gait
         return preview(robot, lap.sensed, mind.ground)
-    steps = Steps(float(target.phase), memory.gait, target.stance, memory.state.foothold.copy())
+    steps = Steps(float(target.phase), memory.gait, target.stance, memory.state.foothold)
     return preview(robot, lap.sensed, mind.ground, steps)
 
 
@@ -43,7 +45,7 @@ class Previewer:
 
     def __init__(self, robot: Robot) -> None:
         self.robot = robot
-        self.writer = Writer(LAYOUT.size(robot.n))
+        self.writer = Writer(LAYOUT.size(robot.n), IN_MEMORY)
         self.due = -math.inf
 
     def add(self, lap: Lap, mind: Mind) -> None:
@@ -55,7 +57,7 @@ class Previewer:
 
     def rows(self) -> Rows | None:
         """What was taken so far; `None` where that is nothing."""
-        return None if self.due == -math.inf else self.writer.table()
+        return self.writer.table() if self.writer.newest else None
 
 
 def preview_at(rows: Rows, time: float) -> TerrainPreview:
@@ -66,8 +68,9 @@ def preview_at(rows: Rows, time: float) -> TerrainPreview:
 
 def previews_in(rows: Rows) -> Iterator[TerrainPreview]:
     """One after the other."""
-    for k in range(len(rows)):
-        yield preview_in(np.array(rows[k : k + 1, :][0]))
+    for part in parts(len(rows), BLOCK):
+        for row in rows[part, :]:
+            yield preview_in(np.array(row))
 
 
 def times_of(rows: Rows) -> np.ndarray:
@@ -102,7 +105,7 @@ def read_previews(archive: zipfile.ZipFile, legs: int) -> Rows | None:
     terrain scanner held."""
     if not holds(archive, PREFIX + "time"):
         return None
-    writer, before = Writer(LAYOUT.size(legs)), -math.inf
+    writer, before = Writer(LAYOUT.size(legs), IN_MEMORY), -math.inf
     for block in read_blocks(archive, shapes(legs)):
         check_previews(block, legs)
         times = times_of(block)

@@ -118,9 +118,10 @@ def first_rows(data: "np.ndarray | Table", length: int) -> "np.ndarray | Table":
 class Writer:
     """Takes rows, one after the other."""
 
-    def __init__(self, width: int) -> None:
+    def __init__(self, width: int, in_memory: int | None = None) -> None:
+        """`in_memory`: so many bytes stay in memory (`IN_MEMORY`)."""
         self.width = width
-        self.most = max(BLOCK, IN_MEMORY // (8 * width))
+        self.most = max(BLOCK, (IN_MEMORY if in_memory is None else in_memory) // (8 * width))
         self.newest: list[bytes] = []
         """Rows that are in no file."""
         self.file: FileIO | None = None
