@@ -24,6 +24,10 @@ BONE = 0.08
 """Thickness of the shank and what it should keep clear, in body heights."""
 
 
+RIM = 0.75
+"""Mark of nodes beside what is hidden, among the edges: feet that choose keep off, but it stops nobody."""
+
+
 class FootholdRequest(NamedTuple):
     """A foothold that is asked for."""
 
@@ -45,10 +49,11 @@ class FootholdRequest(NamedTuple):
 
 
 @kernel
-def is_fit(ground, row, column, wish):
-    """Whether a foot may stand on a node: no edge near, not too high or low, room for the shank."""
+def is_fit(ground, row, column, wish, mark):
+    """Whether a foot may stand on a node: no edge near (no mark of `mark` or more), not too high or low, room
+    for the shank."""
     z, h = ground.heights[row, column], wish.height
-    if ground.edges[row, column] > 0.5 or abs(z - wish.level) > wish.step:
+    if ground.edges[row, column] >= mark or abs(z - wish.level) > wish.step:
         return False
     spacing = ground.place[2]
     x, y = ground.place[0] + column * spacing, ground.place[1] + row * spacing
@@ -63,7 +68,7 @@ def is_fit(ground, row, column, wish):
 def choose_foothold(ground, wish):
     """The foothold nearest to a wished one: found or not, x, y [m]."""
     row, column = nearest(ground, wish.x, wish.y)
-    if is_fit(ground, row, column, wish):
+    if is_fit(ground, row, column, wish, RIM):
         return True, wish.x, wish.y
     rows, columns = ground.heights.shape
     spacing, limit = ground.place[2], (SEARCHED * wish.height) ** 2
@@ -75,7 +80,7 @@ def choose_foothold(ground, wish):
             x, y = ground.place[0] + j * spacing, ground.place[1] + i * spacing
             far = (x - wish.x) ** 2 + (y - wish.y) ** 2
             cost = far + faith * ((x - wish.before_x) ** 2 + (y - wish.before_y) ** 2)
-            if cost < least and far < limit and is_fit(ground, i, j, wish):
+            if cost < least and far < limit and is_fit(ground, i, j, wish, RIM):
                 least, best_x, best_y = cost, x, y
     return least < math.inf, best_x, best_y
 
@@ -98,7 +103,7 @@ def last_foothold(ground, start, level, way, far, aside, step, stride, height):
             y = start[1] + at * ahead_y + k * aside * ahead_x
             row, column = nearest(ground, x, y)
             wish = FootholdRequest(x, y, x, y, level, allowed, (0.0, 0.0), height, 0.0)
-            if is_fit(ground, row, column, wish):
+            if is_fit(ground, row, column, wish, 1.0):
                 last, level, allowed, found = at, ground.heights[row, column], step, True
                 break
         if not found and at - last > stride:

@@ -26,6 +26,8 @@ from gaitwright.signals import Sight
 
 Path = Sequence[Point] | Float[np.ndarray, "n 2"]
 """Points of a path [m]."""
+Ring = Sequence[Point] | Float[np.ndarray, "_ 2"]
+"""Points of an outline [m]."""
 STRATEGIES = ("optimistic", "thesis")
 """How a way is chosen where the map is blank."""
 LARGEST = 100_000.0
@@ -76,7 +78,7 @@ class LearnedMap:
         return cls(bounds, radius, strategy, noise, rows_of(np.empty((0, 4)), True), blank(bounds))
 
     @classmethod
-    def of_polygons(cls, bounds: Bounds, radius: float, polygons: Sequence[Path]) -> "LearnedMap":
+    def of_polygons(cls, bounds: Bounds, radius: float, polygons: Sequence[Ring]) -> "LearnedMap":
         """A field that is known from the start; outlines (closed by themselves) may touch, overlap, cross
         themselves, lie in each other or have no area."""
         empty = cls.of(bounds, radius)

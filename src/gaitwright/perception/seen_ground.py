@@ -14,6 +14,7 @@ import numpy as np
 from jaxtyping import Float, Float32
 
 from gaitwright.ground.elevation import MARGIN
+from gaitwright.ground.footholds import RIM
 from gaitwright.ground.terrain import Number
 from gaitwright.numerics.compiled import kernel
 from gaitwright.perception.elevation_map import ElevationMap
@@ -136,7 +137,7 @@ def fill(heights, known, edge, doubts, hidden):
 
 @kernel
 def mark_rims(hidden, edges):
-    """Makes edges of the cells up to `MARGIN` away from those that are `hidden`."""
+    """Marks the cells up to `MARGIN` away from those that are `hidden`."""
     n = hidden.shape[0]
     for u in range(MARGIN, n - MARGIN):
         for v in range(MARGIN, n - MARGIN):
@@ -146,7 +147,7 @@ def mark_rims(hidden, edges):
                 continue
             for du in range(-MARGIN, MARGIN + 1):
                 for dv in range(abs(du) - MARGIN, MARGIN - abs(du) + 1):
-                    edges[u + du, v + dv] = 1.0
+                    edges[u + du, v + dv] = max(edges[u + du, v + dv], RIM)
 
 
 @kernel

@@ -71,16 +71,22 @@ def missions(
     least: float | None = None,
     profiles: dict[str, list[Profile]] | None = None,
 ) -> Iterator[Figure]:
-    """How many arrived, and how many never put a foot into a hole."""
+    """The figures of all families."""
     courses = [
         Course(family, seed, camera, profiles or {})
         for family in FAMILIES
         for seed in context.seeds(STARTS, quick=1)
     ]
-    found = context.each(what, crossed, courses)
+    return figures(what, courses, context.each(what, crossed, courses), least)
+
+
+def figures(
+    what: str, courses: Sequence[Course], found: Sequence[Crossed], least: float | None
+) -> Iterator[Figure]:
+    """How many of these arrived, and how many never put a foot into a hole."""
     metres, seconds = (sum(getattr(f, name) for f in found if f.arrived) for name in ("metres", "seconds"))
     note = "; ".join([f"{metres:.0f} m in {seconds:.0f} s", *lost(courses, found)])
-    if profiles:
+    if any(course.profiles for course in courses):
         share = sum(f.learned * f.seconds for f in found) / sum(f.seconds for f in found)
         note = f"it drove {share:.0%} of the time; {note}"
     every = {"each": [vars(f) for f in found]}
