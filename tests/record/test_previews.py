@@ -143,8 +143,7 @@ def test_previews_that_no_scanner_held_are_refused(name: str, change, told: str,
 
 
 def test_of_a_long_run_old_previews_go_to_a_file(recording: Recording, tmp_path: Path, monkeypatch):
-    monkeypatch.setattr(previews, "IN_MEMORY", 1)
-    monkeypatch.setattr(rows, "BLOCK", 8)
+    monkeypatch.setattr(previews, "BLOCK", 8)
     monkeypatch.setattr(npz, "PART", 100)
     filed = record(session(), 1, "stairs", previews=True)
     assert isinstance(filed.previews, rows.Table)

@@ -15,12 +15,12 @@ from gaitwright.model.robot import Robot
 from gaitwright.perception.terrain_preview import LAYOUT, Steps, TerrainPreview, preview, preview_in
 from gaitwright.record.checked import BLOWN_UP
 from gaitwright.record.npz import holds, read_blocks
-from gaitwright.record.rows import BLOCK, Lazy, Table, Writer, parts
+from gaitwright.record.rows import Lazy, Table, Writer, parts
 
 EVERY = 0.05
 """From one preview to the next [s]."""
-IN_MEMORY = 4_000_000
-"""What is newest stays in memory beside the laps [bytes]."""
+BLOCK = 256
+"""Rows that go to the file at once: they are wider than those of laps."""
 PREFIX = "scanner_"
 """Of the names that their fields have in a file."""
 OPEN = (
@@ -45,7 +45,7 @@ class Previewer:
 
     def __init__(self, robot: Robot) -> None:
         self.robot = robot
-        self.writer = Writer(LAYOUT.size(robot.n), IN_MEMORY)
+        self.writer = Writer(LAYOUT.size(robot.n), BLOCK)
         self.due = -math.inf
 
     def add(self, lap: Lap, mind: Mind) -> None:
@@ -105,7 +105,7 @@ def read_previews(archive: zipfile.ZipFile, legs: int) -> Rows | None:
     terrain scanner held."""
     if not holds(archive, PREFIX + "time"):
         return None
-    writer, before = Writer(LAYOUT.size(legs), IN_MEMORY), -math.inf
+    writer, before = Writer(LAYOUT.size(legs), BLOCK), -math.inf
     for block in read_blocks(archive, shapes(legs)):
         check_previews(block, legs)
         times = times_of(block)
