@@ -113,6 +113,13 @@ def test_recordings_of_former_versions_have_none(tmp_path: Path):
     assert again.previews is None and again.report().robot == "go2"
 
 
+def test_what_a_former_scanner_did_not_hold_is_not_known(tmp_path: Path):
+    with np.load(io.BytesIO(recordings()[0])) as file:
+        np.savez_compressed(tmp_path / "a.npz", **{k: file[k] for k in file.files if k != "scanner_slope"})
+    for held in previews_in(load(tmp_path / "a.npz").previews):
+        assert np.isnan(held.slope).all() and np.isfinite(held.elevation).all()
+
+
 @pytest.mark.parametrize(
     ("name", "change", "told"),
     [
@@ -129,7 +136,7 @@ def test_recordings_of_former_versions_have_none(tmp_path: Path):
             r"scanner_support_w is \(2, 3, 2\).* expected is 4 × 2",
         ),
         ("roll", lambda roll: roll.astype("f4"), "scanner_roll is"),
-        ("slope", lambda slope: None, "scanner_slope"),
+        ("feet_w", lambda feet: None, "scanner_feet_w"),
     ],
 )
 def test_previews_that_no_scanner_held_are_refused(name: str, change, told: str, tmp_path: Path):

@@ -12,7 +12,7 @@ from gaitwright.signals import Elevation
 FINE = 20
 """Cells that are looked at along a stretched leg."""
 RIM = 64
-"""Rows of an outline."""
+"""Rows of an outline; files have as many."""
 SMOOTH = 2
 """Each place of an outline is the mean of so many before and behind it: cells show no more."""
 NEAR, LEAST, COARSER = 0.2, 1.0, 1.5

@@ -26,7 +26,7 @@ PREFIX = "scanner_"
 OPEN = (
     "support_w", "lowered_w", "coming_w", "footholds_w", "margin", "reach_w", "slope", "elevation",
 )  # fmt: skip
-"""Fields in which there may be nothing, as NaN."""
+"""Fields in which there may be nothing, as NaN; so they may be missing in a file."""
 TRUTHS = ("supporting", "critical")
 Rows = np.ndarray | Table
 
@@ -106,7 +106,7 @@ def read_previews(archive: zipfile.ZipFile, legs: int) -> Rows | None:
     if not holds(archive, PREFIX + "time"):
         return None
     writer, before = Writer(LAYOUT.size(legs), BLOCK), -math.inf
-    for block in read_blocks(archive, shapes(legs)):
+    for block in read_blocks(archive, shapes(legs), optional=tuple(PREFIX + name for name in OPEN)):
         check_previews(block, legs)
         times = times_of(block)
         if (np.diff([before, *times]) <= 0.0).any():
