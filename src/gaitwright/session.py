@@ -241,22 +241,31 @@ def walk(  # noqa: PLR0913 - the door to everything; most calls name three of th
     scene: str = "",
     watch: Callable[[Lap], None] | None = None,
     lowers: bool = False,
+    previews: bool = False,
 ) -> Recording:
     """Takes a robot through a mission; an interrupt (Ctrl-C) keeps what was recorded.
 
-    `watch`, where given, is called with every lap; `lowers`: whether the robot is let down at the end.
+    `watch`, where given, is called with every lap; `lowers`: whether the robot is let down at the end;
+    `previews`: as in `record`.
     """
-    return record(Session(brain, plant, mission, seconds, seed, vary, lowers), seed, scene, watch)
+    return record(Session(brain, plant, mission, seconds, seed, vary, lowers), seed, scene, watch, previews)
 
 
 def record(
-    session: Session, seed: int = 0, scene: str = "", watch: Callable[[Lap], None] | None = None
+    session: Session,
+    seed: int = 0,
+    scene: str = "",
+    watch: Callable[[Lap], None] | None = None,
+    previews: bool = False,
 ) -> Recording:
-    """Steps a session to its end and keeps every lap; an interrupt or a full disk keeps what was recorded."""
+    """Steps a session to its end and keeps every lap; an interrupt or a full disk keeps what was recorded.
+
+    `previews`: whether what the terrain scanner holds is kept too (`record.previews`).
+    """
     recorder = Recorder(session.brain.robot, scene, seed, session.plant.dt)
     try:
         for lap in session:
-            recorder.add(lap)
+            recorder.add(lap, session.mind if previews else None)
             if watch is not None:
                 watch(lap)
     except NoRoom:

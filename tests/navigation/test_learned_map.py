@@ -56,6 +56,31 @@ def empty(**settings) -> LearnedMap:
     return LearnedMap.of(BOUNDS, RADIUS, **settings)
 
 
+# --- turning ---------------------------------------------------------------------------------------
+WALL_AHEAD = Sight((1.0, 3.0), np.array([[2.0, 1.54, 2.0, 4.47]]), np.ones((1, 2), bool), np.empty((0, 2)))
+"""A wall that ends a little nearer on the right side of who comes along x."""
+
+
+@pytest.mark.parametrize("facing", [-1.2, 0.0, 1.2, 1.2 - 2.0 * math.pi])
+def test_of_ways_about_as_short_the_one_it_faces_is_taken(facing):
+    """So that it does not turn to and fro before a wall of which it sees more with every look."""
+    known, goal = empty().seen(WALL_AHEAD), (5.0, 3.0)
+    right, facing_it = known.way((1.0, 3.0), goal), known.way((1.0, 3.0), goal, facing)
+    assert right is not None and right.path[0][1] < 2.0
+    assert facing_it is not None and not facing_it.is_walked
+    turns_left = math.remainder(facing, 2.0 * math.pi) > 0.5
+    assert (facing_it.path[0][1] > 4.0) == turns_left
+    assert right.length <= facing_it.length <= 1.03 * right.length
+    assert facing_it.optimistic == pytest.approx(right.length)
+    ends = np.vstack([(1.0, 3.0), facing_it.path])
+    assert facing_it.length == pytest.approx(np.hypot(*np.diff(ends, axis=0).T).sum())
+
+
+def test_facing_changes_nothing_where_all_is_known():
+    known = LearnedMap.of_polygons(BOUNDS, RADIUS, [[(2.0, 1.6), (2.1, 1.6), (2.1, 4.5), (2.0, 4.5)]])
+    assert known.way((1.0, 3.0), (5.0, 3.0), 1.2) == known.way((1.0, 3.0), (5.0, 3.0))
+
+
 # --- known from the start --------------------------------------------------------------------------
 @given(st.integers(0, 10_000))
 @settings(max_examples=6)

@@ -29,6 +29,7 @@ from gaitwright.cli.arg_types import (
 from gaitwright.cli.balance_arguments import add_balance
 from gaitwright.cli.guidance_arguments import SECONDS, add_guidance
 from gaitwright.cli.operator_arguments import add_operators
+from gaitwright.cli.scanner_arguments import add_scanner
 from gaitwright.cli.sight_arguments import add_sight
 from gaitwright.plant.names import FAULTS, INTEGRATORS, JOINTS, PLANTS, SENSORS
 
@@ -64,12 +65,10 @@ def add_mission(parser: argparse.ArgumentParser) -> None:
 
 def add_skill(parser: argparse.ArgumentParser) -> None:
     add_robot_and_scene(parser, scene="flat")
-    parser.add_argument(
-        "--skill", default="trot", metavar="NAME", help="a name that `gaitwright skills` lists (trot)"
-    )
-    parser.add_argument(
-        "--speed", type=finite, metavar="V", help="along the skill's way, in m/s (what it is meant for)"
-    )
+    which = "a name that `gaitwright skills` lists (trot)"
+    parser.add_argument("--skill", default="trot", metavar="NAME", help=which)
+    along = "along the skill's way, in m/s (what it is meant for)"
+    parser.add_argument("--speed", type=finite, metavar="V", help=along)
     parser.add_argument("--lateral", type=finite, default=0.0, metavar="V", help="to the left, in m/s (0)")
     parser.add_argument(
         "--turn",
@@ -292,6 +291,7 @@ ADD = {
     "books": add_books,
     "operators": add_operators,
     "balance": add_balance,
+    "scanner": add_scanner,
     "bench": add_bench,
     "reproduce": add_reproduce,
     "doctor": add_nothing,

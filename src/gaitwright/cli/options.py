@@ -27,8 +27,11 @@ COMMANDS = {
         "the whole story: a robot crosses a field, learns, and crosses another one",
         "Without arguments and without network: go2 walks from (0, 0) to (6, 0) among blocks, over the low "
         "ones and around the high ones, by the numerical controller. Then it goes to school, which takes "
-        "about a minute, and crosses another field by what it has learned. Prints the figures of both trips "
-        "and leaves pictures, recordings, reports and the skillbook in a new folder runs/demo-NNN.",
+        "about a minute, and crosses another field by what it has learned. It has never been in either: it "
+        "knows what its camera shows. Then a bay lies in its way to (12, 0), twice: the second time it goes "
+        "by the map that it made the first time. Prints the figures of all trips and leaves pictures, "
+        "recordings, reports, the skillbook and the map in a new folder runs/demo-NNN; --json tells of the "
+        "second field. Exit code 0: it arrives every time; 1: it does not.",
         ("gaitwright demo", "gaitwright demo --seed 3 --out runs/three", "gaitwright demo --json -"),
     ),
     "mission": Command(
@@ -159,6 +162,19 @@ COMMANDS = {
             "gaitwright skill --driver learned --skillbook go2.skills --balance mine.json --push 1.5 90",
         ),
     ),
+    "scanner": Command(
+        "what the terrain scanner held at a moment of a recorded run",
+        "Supporting feet, the support polygon and the coming one, the centre of gravity from above, where "
+        "each foot could be put, feet that may not be lifted, pitch and roll, and slope and height of the "
+        "ground ahead of each foot, as far as the robot knew it. With --out, `mission` and `skill` record it "
+        "20 times a second: in recording.npz under names that begin with scanner_, in recording.mcap as "
+        "/gaitwright/scanner.",
+        (
+            "gaitwright scanner runs/walk/recording.npz",
+            "gaitwright scanner runs/walk/recording.npz --at 4.2 --plot --out scanner.png",
+            "gaitwright scanner runs/walk/recording.npz --at 4.2 --json -",
+        ),
+    ),
     "bench": Command(
         "every claim, measured",
         "Measures what this project claims about itself, on this machine. Without names: everything.",
@@ -168,12 +184,13 @@ COMMANDS = {
         "tables and figures of the thesis",
         "Computes tables and figures of the thesis anew and holds them against what it says: what agrees, "
         "what does not, and what cannot. Prints them and leaves each as Markdown, the figures as PNG too, "
-        "over those of an earlier run. Names: table-6.1, table-6.2, figure-6.5, figure-6.6; without names: "
-        "all. Exit code 0: every claim agrees that can; 1: one does not.",
+        "over those of an earlier run. Names: table-6.1, table-6.2, figure-6.5, figure-6.6, figure-6.9, "
+        "figure-6.10, figure-6.11; without names: all. Figures 6.9 to 6.11 are walked anew in physics, which "
+        "takes up to a minute each. Exit code 0: every claim agrees that can; 1: one does not.",
         (
             "gaitwright reproduce",
-            "gaitwright reproduce table-6.1",
-            "gaitwright reproduce figure-6.6 --out here",
+            "gaitwright reproduce table-6.1 figure-6.6 --out here",
+            "gaitwright reproduce figure-6.11 --json -     # its paths and maps as numbers",
         ),
     ),
     "doctor": Command(

@@ -188,7 +188,7 @@ def run(
         session = Session(setting.brain, whole, mission, args.seconds, args.seed, setting.varied, lowers=True)
         if push:
             session.push(push)
-        recording = record(session, args.seed, setting.scene.name, watch)
+        recording = record(session, args.seed, setting.scene.name, watch, previews=args.out is not None)
     if not len(recording):
         raise KeyboardInterrupt
     try:

@@ -26,6 +26,8 @@ from gaitwright.signals import Sight
 
 Path = Sequence[Point] | Float[np.ndarray, "_ 2"]
 """Points of a path [m]."""
+Ring = Sequence[Point] | Float[np.ndarray, "_ 2"]
+"""Points of an outline [m]."""
 STRATEGIES = ("optimistic", "thesis")
 """How a way is chosen where the map is blank."""
 LARGEST = 100_000.0
@@ -76,7 +78,7 @@ class LearnedMap:
         return cls(bounds, radius, strategy, noise, rows_of(np.empty((0, 4)), True), blank(bounds))
 
     @classmethod
-    def of_polygons(cls, bounds: Bounds, radius: float, polygons: Sequence[Path]) -> "LearnedMap":
+    def of_polygons(cls, bounds: Bounds, radius: float, polygons: Sequence[Ring]) -> "LearnedMap":
         """A field that is known from the start; outlines (closed by themselves) may touch, overlap, cross
         themselves, lie in each other or have no area."""
         empty = cls.of(bounds, radius)
@@ -133,8 +135,9 @@ class LearnedMap:
         return replace(self, rows=rows, raster=raster, noise=noise, trips=trips)
 
     # --- asked ----------------------------------------------------------------------------------
-    def way(self, start: Point, goal: Point) -> Way | None:
-        """The way to take; `None`: there is none for a disc of radius r / cos 15° (said only if so).
+    def way(self, start: Point, goal: Point, facing: float | None = None) -> Way | None:
+        """The way to take by a robot that faces `facing` [rad], or does not say where; `None`: there is none
+        for a disc of radius r / cos 15° (said only if so).
 
         A start that is too near to something is left. A goal outside the field or nearer than r to something
         cannot be reached, unless the robot stands there. `None` is said only if there is none either without
@@ -142,16 +145,16 @@ class LearnedMap:
         """
         require_places(np.array([*start, *goal]))
         start, goal = (float(start[0]), float(start[1])), (float(goal[0]), float(goal[1]))
-        way = self.way_over(self.road_map, start, goal)
+        way = self.way_over(self.road_map, start, goal, facing)
         if way is None and (self.noise > 0.0 or len(self.sure) < len(self.rows)):
-            return self.way_over(self.sure_road_map, start, goal)
+            return self.way_over(self.sure_road_map, start, goal, facing)
         return way
 
-    def way_over(self, road_map: RoadMap, start: Point, goal: Point) -> Way | None:
+    def way_over(self, road_map: RoadMap, start: Point, goal: Point, facing: float | None) -> Way | None:
         """The way to take over some roads, by the map's strategy."""
         if self.strategy == "thesis":
             return thesis_way(road_map, self.raster, self.trail, start, goal)
-        return best_way(road_map, self.raster, start, goal)
+        return best_way(road_map, self.raster, start, goal, facing)
 
     def is_cut(self, path: Path) -> bool:
         """Whether what is known for sure comes within r of a path [m], and nearer than to its beginning,

@@ -68,7 +68,7 @@ class Navigator:
         if isinstance(mission.guidance, Programme):
             known = travel.known if self.noise is None else before.known
             return self.seen(set_out_on(travel, known, now), now, scan, travel)
-        path, no_way = way_over(travel.known, ground, now.place, travel.left)
+        path, no_way = way_over(travel.known, now, travel.left)
         if no_way:
             return Route((), 0.0, mission.speed, no_way=no_way), travel
         begins, ends = directions((now.place, *path))
@@ -111,7 +111,7 @@ class Navigator:
             travel = travel._replace(left=left, cramped=())
         is_astray = bool(travel.aside) or self.has_overshot(now, path)
         if is_astray or known.is_cut((here, *path) if is_news else (here, *path[:1])):
-            other, no_way = way_over(known, now.ground, here, left)
+            other, no_way = way_over(known, now, left)
             if no_way and is_news:
                 return replace(route, path=(), no_way=no_way), travel
             path = other or path  # a robot that was pushed aside goes on as well as it can
@@ -200,17 +200,15 @@ class Navigator:
         return math.floor(point[0] / size), math.floor(point[1] / size)
 
 
-def way_over(
-    known: LearnedMap, ground: GroundMap, here: Point, points: Sequence[Point]
-) -> tuple[tuple[Point, ...], str | None]:
-    """A path from here over all way-points, or why there is none."""
-    path: list[Point] = []
+def way_over(known: LearnedMap, now: Moment, points: Sequence[Point]) -> tuple[tuple[Point, ...], str | None]:
+    """A path from where the robot is now over all way-points, or why there is none."""
+    path = list[Point]()
     for point in points:
-        if not is_within(ground.bounds, point):
+        if not is_within(now.ground.bounds, point):
             return (), f"({point[0]:g}, {point[1]:g}) lies outside the scene"
-        leg = known.way(path[-1] if path else here, point)
+        leg = known.way(path[-1], point) if path else known.way(now.place, point, now.yaw)
         if leg is None:
-            return (), why_no_way(known, ground, point)
+            return (), why_no_way(known, now.ground, point)
         path.extend(leg.path)
     return tuple(path), None
 

@@ -48,6 +48,8 @@ COMMANDS: tuple[tuple[str, ...], ...] = (
     ("explain", "sound.skills", "--situation", "road=flat", "pace=0.4", "--not", "climb"),
     ("explain", "sound.skills", "--history", "trot", "--json", "-"),
     ("explain", "sound.skills", "--recording", "sound.npz", "--at", "0.02"),
+    ("scanner", "sound.npz", "--at", "0.02", "--json", "-"),
+    ("scanner", "sound.npz", "--plot", "--out", "held.png"),
     ("books", "export", "sound.skills", "--out", "text.txt"),
     ("books", "import", "sound.txt", "--out", "again.skills"),
     ("books", "merge", "sound.skills", "sound.skills", "--out", "both.skills"),

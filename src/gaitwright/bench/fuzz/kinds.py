@@ -40,6 +40,8 @@ from gaitwright.navigation.room_needed import half_width
 from gaitwright.perception.known_ground import map_of
 from gaitwright.plant.kinematic import KinematicPlant
 from gaitwright.plant.mujoco.world import Placed, build_world
+from gaitwright.record.preview_facts import facts_of
+from gaitwright.record.previews import previews_in
 from gaitwright.record.recording import load
 from gaitwright.signals import Mission
 from gaitwright.skillbook import rows
@@ -117,7 +119,10 @@ def take_rulebook(path: Path) -> None:
 
 def take_recording(path: Path) -> None:
     """Read, summed up, and asked about its last moment."""
-    load(path).report()
+    recording = load(path)
+    recording.report()
+    for held in previews_in(recording.previews) if recording.previews is not None else ():
+        json.dumps(facts_of(recording.robot, held), allow_nan=False)
     import_module("gaitwright.cli.recorded_moment").recorded_facts(str(path), None)  # stands above us
 
 
@@ -219,7 +224,8 @@ def damaged_array(chance: Random, array: np.ndarray) -> np.ndarray:
     if how == 0:
         return array[: chance.choice((0, 1, len(array) // 2))]
     if how == 1:
-        return array.astype(chance.choice(("f4", "i8", "U3", "c16")))
+        with np.errstate(invalid="ignore"):  # what is no number is no whole one either
+            return array.astype(chance.choice(("f4", "i8", "U3", "c16")))
     if how == 2:
         return array.reshape(-1, 1)
     array = array.astype(float)

@@ -153,9 +153,10 @@ def balances() -> tuple[bytes, ...]:
 
 @cache
 def recordings() -> tuple[bytes, ...]:
-    """A walk of some ticks, without mechanics: nothing has to be compiled for it."""
+    """A walk of some ticks, without mechanics, with what the terrain scanner held."""
     robot, scene = load_robot("go2"), load_scene("flat")
     brain = Brain.of(robot, scene, fixed_skill(robot, "walk", 0.2, 0.0, 0.0, "kinematic"))
-    done = walk(brain, KinematicPlant(robot, scene), Mission((), driver="kinematic"), 0.06, scene="flat")
+    mission = Mission((), driver="kinematic")
+    done = walk(brain, KinematicPlant(robot, scene), mission, 0.06, scene="flat", previews=True)
     with tempfile.TemporaryDirectory() as folder:
         return (done.save(Path(folder) / "sound.npz").read_bytes(),)
