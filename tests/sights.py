@@ -45,7 +45,7 @@ def walked(
     """The map after a frame at each x of a walk that sways, the last frame, and where it was taken."""
     eyes, frame = Eyes(camera, scene, seed), None
     sensed = posed(robot, scene, (xs[0], y))
-    seen = standing(robot, sensed, footprints(robot, scene, sensed))
+    seen = standing(robot, sensed, footprints(robot, scene, sensed), noise=camera.noise)
     for k, x in enumerate(xs):
         angles = (0.02 * np.cos(2.3 * k), 0.03 * np.sin(1.7 * k), 0.1 * np.sin(0.3 * k))
         sensed = posed(robot, scene, (x, y), angles, 0.1 * k)

@@ -67,7 +67,7 @@ def test_feet_stand_on_what_was_seen_or_felt_and_nothing_else_is_known() -> None
 
     place = session.measured.position_w[:2]
     assert all(is_open(*(place + foot[:2])) for foot in GO2.nominal_feet), "it stands on its feet"
-    assert is_open(1.3, 0.0) and not is_open(1.8, 0.3), "open ground is seen, the wall's foot is an edge"
+    assert is_open(0.6, 0.0) and not is_open(1.8, 0.3), "open ground is seen, the wall's foot is an edge"
     assert not is_open(2.45, 0.3) and not is_open(-1.5, 0.0), "nothing is known behind the wall, or behind it"
     assert ground.obstacles == () and ground.elevation is not None
     assert np.isnan(ground.elevation.height(-2.0, 0.0)) and ground.bounds == WALL.bounds

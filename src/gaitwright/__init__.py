@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     from gaitwright.ground.scene import Scene as Scene
     from gaitwright.ground.scene import load_scene as load_scene
     from gaitwright.locomotion import Brain as Brain
+    from gaitwright.missions import Programme as Programme
+    from gaitwright.missions import Steering as Steering
+    from gaitwright.missions import Stop as Stop
+    from gaitwright.missions import Velocity as Velocity
     from gaitwright.model.robot import Robot as Robot
     from gaitwright.plant.mujoco.simulation import MujocoPlant as MujocoPlant
     from gaitwright.record.recording import Recording as Recording
@@ -48,6 +52,7 @@ _ROOMS = {
     "gait.leg_cycles.files": ("load_cycle",),
     "gait.leg_cycles.leg_cycle": ("LegCycle",),
     "locomotion": ("Brain",),
+    "missions": ("Programme", "Steering", "Stop", "Velocity"),
     "model.robot": ("Robot",),
     "ground.scene": ("Scene", "load_scene"),
     "description.load": ("load_robot",),

@@ -22,6 +22,7 @@ from gaitwright.control.learned.profile import Profile
 from gaitwright.control.numerical import Method, NumericalController
 from gaitwright.control.takeover import LEARNED, Takeover
 from gaitwright.driving import Driving, Memories, with_gait_in_use
+from gaitwright.errors import WrongUse
 from gaitwright.gait.coordinator import Coordinator
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle
 from gaitwright.gait.operators import Operator
@@ -30,10 +31,8 @@ from gaitwright.knowledge.rules import Rulebook
 from gaitwright.knowledge.trust import Grade
 from gaitwright.model.camera import Camera
 from gaitwright.model.robot import Robot
-from gaitwright.navigation.explorer import Explorer
 from gaitwright.navigation.learned_map import LearnedMap
 from gaitwright.navigation.navigator import Navigator
-from gaitwright.navigation.told_anew import rest_of
 from gaitwright.perception.estimated_state import EstimatedState, Sensing
 from gaitwright.perception.fault_words import Fault
 from gaitwright.perception.known_ground import KnownGround
@@ -52,7 +51,7 @@ from gaitwright.signals import (
     SkillCall,
 )
 from gaitwright.skills.chooser import DefaultChooser
-from gaitwright.skills.foothold_guard import FootholdGuard
+from gaitwright.skills.commanded import guarded
 from gaitwright.skills.giving_way import GivesWay
 from gaitwright.skills.rule_chooser import RuleChooser
 from gaitwright.stages import Chooser, Controller, Memory, MotionStage, Navigation, Perception
@@ -110,7 +109,7 @@ class Brain:
         navigator: Navigation = Navigator(robot)
         if camera is not None:
             perception = SeeingGround.of(scene.bounds, robot, camera, dt if sensing == "estimated" else None)
-            navigator = Explorer(robot, perception.noise)
+            navigator = Navigator(robot, perception.noise)
         else:
             known = KnownGround.of(scene, robot, sees)
             told = known if sensing == "true" else EstimatedState(known, robot, dt)
@@ -119,7 +118,7 @@ class Brain:
             robot,
             perception,
             navigator,
-            GivesWay(FootholdGuard(chooser, robot) if sees else chooser, robot),
+            GivesWay(guarded(chooser, robot, sees), robot),
             Coordinator(robot, dt),
             {
                 "numerical": numerical,
@@ -178,9 +177,19 @@ class Brain:
         return replace(self, coordinator=replace(self.coordinator, operators=tuple(operators)))
 
     def with_map(self, known: LearnedMap) -> "Brain":
-        """The same brain with what was learned of the ground on earlier trips: it explores."""
-        assert isinstance(self.navigator, Explorer), "who knows the ground has nothing to learn of it"
-        return replace(self, navigator=replace(self.navigator, known=known))
+        """The same brain with what was learned of the ground on earlier trips."""
+        return replace(self, navigator=replace(self.explorer, learned=known))
+
+    def with_strategy(self, name: str) -> "Brain":
+        """The same brain that chooses its way by another strategy where its map is blank."""
+        return replace(self, navigator=replace(self.explorer, strategy=name))
+
+    @property
+    def explorer(self) -> Navigator:
+        """The navigator of a robot that sees the ground on its way. Raises `WrongUse` where it knows it."""
+        if not isinstance(self.navigator, Navigator) or self.navigator.noise is None:
+            raise WrongUse("this robot knows the ground: there is nothing to explore")
+        return self.navigator
 
     @cached_property
     def driving(self) -> Driving:
@@ -202,7 +211,7 @@ class Brain:
         if before is None:
             memories = Memories(perceived, travelled, self.coordinator.begin(sensed, phase))
             return Mind(mission, ground, route, call, memories)
-        memories = before.memories._replace(perception=perceived, navigator=travelled)
+        memories = before.memories._replace(navigator=travelled)  # the next lap perceives what was measured
         return before._replace(mission=mission, ground=ground, route=route, call=call, memories=memories)
 
     def chosen(
@@ -291,13 +300,9 @@ def plan_and_choose(brain: Brain, mind: Mind, sensed: Sensed, ground: GroundMap)
     route, old, event = mind.route, mind.route, ground.obstacles is not mind.ground.obstacles
     if event or now - looked_at >= LOOK_EVERY - 1e-9:
         scan = brain.perception.look(ground, sensed) if route.path else None
-        if event and route.path:
-            todo = rest_of(mind.mission, route)
-            route, travelled = brain.navigator.set_out(todo, sensed, ground, scan, travelled)
-        else:
-            route, travelled = brain.navigator.plan(route, sensed, ground, scan, travelled)
+        route, travelled = brain.navigator.plan(route, sensed, ground, scan, travelled)
         looked_at, event = now, event or bool(ground.moving)
-    event = event or route.arrived != old.arrived or len(route.path) != len(old.path)
+    event = event or (route is not old and route.is_other_than(old))
     if not event and now - mind.chosen_at < mind.call.gait.period - 1e-9:
         return mind if route is old else mind._replace(route=route, looked_at=looked_at), travelled
     call = brain.chosen(mind.mission, route, sensed, mind.call, ground)

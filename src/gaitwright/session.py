@@ -15,6 +15,7 @@ from gaitwright.descent import can_descend, descent
 from gaitwright.errors import NoRoom, WrongUse, is_interrupt
 from gaitwright.ground.scene import Scene
 from gaitwright.locomotion import Brain, Lap, Mind, think
+from gaitwright.missions import Steering, Velocity
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import heading, rotation
 from gaitwright.perception.fault_words import ends_trip
@@ -22,6 +23,7 @@ from gaitwright.perception.told_things import with_things
 from gaitwright.record.recording import Recorder, Recording
 from gaitwright.record.scene_of import scene_for, scene_scale  # noqa: F401 - found here by all who set up runs
 from gaitwright.signals import Measured, Mission
+from gaitwright.skills.commanded import check_velocity
 from gaitwright.stages import Plant, SimulatedPlant
 from gaitwright.termination import Ending, Termination
 
@@ -172,6 +174,18 @@ class Session:
         self.mind = self.brain.begin(mission, self.measured, before=self.mind)
         self.termination.set_out(self.measured.time)
 
+    def steer(self, forward: float, left: float = 0.0, turn: float = 0.0) -> None:
+        """A person's velocity from the next step on, in the robot's heading frame [m/s, m/s, rad/s]; it holds
+        until another one, or a mission, is given.
+
+        Where there is no room for it the robot stands (`mind.route.pause` says why) and the run goes on.
+        Raises `WrongUse` for one that is beyond the robot's skills.
+        """
+        velocity = Velocity(forward, left, turn)
+        check_velocity(self.brain.robot, velocity)
+        now = Steering((0.0,), (velocity,))
+        self.give(Mission((), driver=self.mind.mission.driver, guidance=now))
+
     def drive(self, driver: str) -> None:
         """Another driver from the next step on."""
         self.brain.controller(driver)
@@ -228,23 +242,32 @@ def walk(  # noqa: PLR0913 - the door to everything; most calls name three of th
     scene: str = "",
     watch: Callable[[Lap], None] | None = None,
     lowers: bool = False,
+    previews: bool = False,
 ) -> Recording:
     """Takes a robot through a mission; an interrupt (Ctrl-C) keeps what was recorded.
 
-    `watch`, where given, is called with every lap; `lowers`: whether the robot is let down at the end.
+    `watch`, where given, is called with every lap; `lowers`: whether the robot is let down at the end;
+    `previews`: as in `record`.
     """
-    return record(Session(brain, plant, mission, seconds, seed, vary, lowers), seed, scene, watch)
+    return record(Session(brain, plant, mission, seconds, seed, vary, lowers), seed, scene, watch, previews)
 
 
 def record(
-    session: Session, seed: int = 0, scene: str = "", watch: Callable[[Lap], None] | None = None
+    session: Session,
+    seed: int = 0,
+    scene: str = "",
+    watch: Callable[[Lap], None] | None = None,
+    previews: bool = False,
 ) -> Recording:
-    """Steps a session to its end and keeps every lap; an interrupt or a full disk keeps what was recorded."""
+    """Steps a session to its end and keeps every lap; an interrupt or a full disk keeps what was recorded.
+
+    `previews`: whether what the terrain scanner holds is kept too (`record.previews`).
+    """
     movers = getattr(getattr(session.plant, "scene", None), "movers", ())  # a real plant has no scene
     recorder = Recorder(session.brain.robot, scene, seed, session.plant.dt, movers)
     try:
         for lap in session:
-            recorder.add(lap)
+            recorder.add(lap, session.mind if previews else None)
             if watch is not None:
                 watch(lap)
     except NoRoom:

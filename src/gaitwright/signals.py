@@ -15,9 +15,12 @@ from typing import Any, NamedTuple, Protocol, runtime_checkable
 import numpy as np
 from jaxtyping import Bool, Float
 
+from gaitwright.missions import Mission, Velocity  # noqa: F401 - a mission is on an arrow: found here by all
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.packing import Packed, packed
 
+SHARP = math.radians(40)
+"""A turn by more than this is made on the spot [rad]."""
 GRIP = 0.8
 """Coefficient of friction of ground of which nothing is known [-]."""
 
@@ -79,18 +82,6 @@ class Measured(Sensed):
     """Acceleration of the base origin less gravity, base axes, mean over the last control period [m/s²]."""
     frame: DepthFrame | None = None
     """What a depth camera saw in this tick; `None` where there is none, or nothing new."""
-
-
-@dataclass(frozen=True, slots=True)
-class Mission:
-    """Where to go: way-points in order, the last one is the goal."""
-
-    waypoints: tuple[tuple[float, float], ...]
-    """World x, y [m]."""
-    speed: float | None = None
-    """Wished speed [m/s]; `None` leaves it to the skill."""
-    driver: str = "numerical"
-    """Who computes the torques."""
 
 
 class Sight(NamedTuple):
@@ -196,7 +187,7 @@ class Route:
     path: tuple[tuple[float, float], ...]
     """Points still to pass, world [m]; empty when there is nowhere to go."""
     remaining: float
-    """Length of what is left, from where the robot is [m]."""
+    """Length of what is left until the robot is to stand, from where it is [m]."""
     speed: float | None
     """Wished speed [m/s]."""
     arrived: bool = False
@@ -209,6 +200,28 @@ class Route:
     """World direction in which the way sets out [rad]; `None` where there is none, or nobody noted it."""
     ends: float | None = None
     """World direction in which it comes to its last point [rad]."""
+    facing: float | None = None
+    """World direction in which the robot looks on its way, where there is no room to turn to it [rad]."""
+    velocity: Velocity | None = None
+    """What a person asks for now; `None`: the path is followed."""
+    pause: str | None = None
+    """Why the robot stands for now, as a sentence."""
+    halt: str | None = None
+    """Why it must not go on, as a sentence."""
+    attended: bool = False
+    """Whether a person steers who can give another velocity: a robot that must not go on waits for it."""
+
+    def is_other_than(self, before: "Route") -> bool:
+        """Whether the skill is to be chosen anew, and not only at the end of its cycle."""
+        return (
+            self.arrived != before.arrived
+            or len(self.path) != len(before.path)
+            or self.facing is not None
+            or before.facing is not None
+            or self.velocity != before.velocity
+            or (self.pause is None) != (before.pause is None)
+            or (self.halt is None) != (before.halt is None)
+        )
 
 
 @dataclass(frozen=True, slots=True)

@@ -29,6 +29,8 @@ STILL = 0.03
 """A body slower than this share of √(g h) stands still."""
 REST = 0.3
 """A robot that has stood still at its goal for this long [s] has arrived."""
+HALTED = 2.0
+"""One that must not go on, and stands, is given this long [s]: with a few more looks it may."""
 
 
 sensed_fields = Sensed.layout.views()
@@ -119,7 +121,8 @@ class Termination:
             return Ending(f"there is no way to the goal: {route.no_way}")
         if not ((route.arrived or call.halt) and all_down and speed < STILL * self.pace):
             self.standing_since = now
-        if now - self.standing_since > REST:
+        stood = now - self.standing_since
+        if stood > (REST if route.arrived else HALTED):
             arrival = Ending("arrived at the goal", arrived=True)
             return arrival if route.arrived else Ending(f"stopped: {call.halt}")
         return self.out_of_time(route) if now >= self.ends - 1e-9 else None
@@ -154,7 +157,8 @@ class Termination:
     def stuck(self, route: Route, sensed: Sensed, call: SkillCall) -> Ending | None:
         """A mission that makes no progress; it begins anew on another way, since this one is blocked, and
         after it gave way."""
-        if not route.path or route.arrived:
+        if not route.path or route.arrived or route.pause:
+            self.progress_at = sensed.time
             return None
         if call.yields or route.remaining > self.left + ANEW * self.robot.body_length:
             self.nearest = math.inf

@@ -41,7 +41,7 @@ class Exact:
     def is_cut(self, path: np.ndarray) -> bool:
         return not is_way_clear(self.pieces, path, RADIUS - SOFT)
 
-    def way(self, start: Point, goal: Point) -> GridWay | None:
+    def way(self, start: Point, goal: Point, facing: float) -> GridWay | None:
         solid = self.grown(ROOM)
         begin, out = start, np.empty((0, 2))
         if solid.intersects(shapely.Point(start)):

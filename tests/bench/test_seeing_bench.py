@@ -1,6 +1,7 @@
 """What bench seeing counts."""
 
-from gaitwright.bench.claims.seeing import EVERY, Course, Crossed, figures, in_holes
+from gaitwright.bench.claims.seeing import figures
+from gaitwright.bench.evidence.seen_courses import EVERY, Course, Crossed, in_holes
 from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.ground.terrain import Box, Flat
 from gaitwright.locomotion import Brain
@@ -27,9 +28,9 @@ def test_a_foot_is_in_a_hole_where_all_around_is_higher():
 
 
 def test_who_did_not_arrive_is_named():
-    good = Crossed(True, False, "arrived at the goal", 10.0, 25.0, 0)
-    bad = Crossed(False, True, "fell: the body leaned 61°", 3.0, 9.0, 2)
+    good = Crossed(True, False, "arrived at the goal", 10.0, 25.0, 0, 0.0)
+    bad = Crossed(False, True, "fell: the body leaned 61°", 3.0, 9.0, 2, 0.0)
     courses = [Course("forest", 1, None), Course("maze", 2, None)]
-    arrived, clean = figures("camera", courses, [good, bad], is_wanted=True)
+    arrived, clean = figures("camera", courses, [good, bad], least=0.9)
     assert (arrived.measured, clean.measured) == (1.0, 1.0) and not arrived.reached
     assert "maze 2: fell" in arrived.note and "10 m in 25 s" in arrived.note

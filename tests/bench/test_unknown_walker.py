@@ -65,7 +65,7 @@ class Blind:
     def is_cut(self, path: np.ndarray) -> bool:
         return False
 
-    def way(self, start: Point, goal: Point) -> GridWay:
+    def way(self, start: Point, goal: Point, facing: float) -> GridWay:
         angle = np.random.default_rng(self.touches).uniform(0.0, 2.0 * math.pi) if self.touches else 0.0
         aside = (start[0] + 3.0 * math.cos(angle), start[1] + 3.0 * math.sin(angle))
         path = np.array([aside, goal] if self.touches % 2 else [goal])
@@ -108,7 +108,7 @@ def test_whatever_its_planner_wants_the_disc_never_enters_an_obstacle(seed: int)
 class Stuck(Blind):
     """Wants to be where it is."""
 
-    def way(self, start: Point, goal: Point) -> GridWay:
+    def way(self, start: Point, goal: Point, facing: float) -> GridWay:
         return GridWay(np.array([start]), 0.0, 0)
 
 

@@ -5,13 +5,16 @@ import signal
 import stat
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from gaitwright import bench
-from gaitwright.cli import main, trips
+from gaitwright.cli import demo, main, trips
+from gaitwright.record.metrics import Report
 from gaitwright.record.recording import load
+from gaitwright.skillbook.book import Skillbook
 from gaitwright.skills.library import skill_names
 
 KEYS = {
@@ -177,6 +180,24 @@ def test_runs_are_numbered_not_overwritten(tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.setattr(trips, "illustrate", lambda *_: [])
     assert [main(["demo"]), main(["demo"])] == [1, 1]  # nobody crosses the field in that time
     assert sorted(path.name for path in (tmp_path / "runs").iterdir()) == ["demo-001", "demo-002"]
+    left = {path.name for path in (tmp_path / "runs" / "demo-001").iterdir()}
+    assert {"first", "third", "fourth", "go2.skills", "map.png", "recording.npz", "report.json"} == left
+    book = Skillbook.load(tmp_path / "runs" / "demo-001" / "go2.skills")
+    assert [notes.place for notes in book.maps] == ["blocks (seed 9)", "bugtrap (seed 8)"]
+
+
+def test_the_demo_says_who_drove_and_what_a_map_is_good_for(capsys: pytest.CaptureFixture[str]):
+    report = Report(**reported(SKILL, capsys))
+    once = replace(report, arrived=True, distance_m=14.42, duration_s=41.3)
+    again = replace(once, distance_m=12.68, duration_s=33.4)
+    second = replace(report, driver_share={"learned": 0.94, "numerical": 0.06})
+    said = demo.lessons_of({"first": report, "second": second, "third": once, "fourth": again})
+    assert said == [
+        "The learned controller drove 94% of the way through the second field.",
+        "Past the bay it went 14.4 m in 41 s with nothing known, and 12.7 m in 33 s by its map.",
+    ]
+    (said,) = demo.lessons_of({"second": report, "third": once, "fourth": replace(again, arrived=False)})
+    assert said.startswith("The numerical controller drove in the second field")
 
 
 def test_a_missing_extra_is_a_line_not_a_failure(

@@ -82,7 +82,7 @@ def test_a_trip_that_is_interrupted_keeps_its_map(monkeypatch, capsys):
 def test_where_there_is_no_way_what_was_seen_is_kept(capsys):
     Path("bay.json").write_text(json.dumps({"boxes": [{"x": 1, "y": 0, "lx": 0.2, "ly": 2, "height": 0.5}]}))
     told = said([*LOOKING, "--goal", "1", "0", *INTO], 1, capsys)
-    assert "there is no way to the goal: to (1, 0) leads no way" in told and "is now: 0 trips, " in told
+    assert "there is no way to the goal: on (1, 0) stands an obstacle" in told and "is now: 0 trips, " in told
     learned = bay_in("a.skills")
     assert len(learned.rows) and learned.raster.cells.any() and not learned.trips
 

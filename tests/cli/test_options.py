@@ -60,7 +60,7 @@ WRONG = [
     (["mision"], "no command 'mision'; there is: demo, mission"),
     (["mision"], "did you mean 'mission'?"),
     ([*MISSION, "--sped", "1"], "no option --sped; did you mean --speed?"),
-    (["mission"], "--goal --waypoints is required"),
+    (["mission"], "--goal --waypoints --route --velocity is required"),
     (["mission", "--goal", "6"], "argument --goal: expected 2 arguments"),
     (["mission", "--goal", "nan", "0"], "'nan' is not a finite number"),
     (["mission", "--goal", "-inf", "0"], "'-inf' is not a finite number"),

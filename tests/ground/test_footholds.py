@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from gaitwright.ground.elevation import elevation_grid, height_at, nearest
 from gaitwright.ground.footholds import (
     OFF_PLANE,
+    RIM,
     SEARCHED,
     FootholdRequest,
     choose_foothold,
@@ -18,6 +19,7 @@ from gaitwright.ground.footholds import (
 )
 from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.ground.terrain import Box, Flat
+from gaitwright.signals import ElevationGrid
 from oracles import robot_called
 
 DOG = robot_called("dog")
@@ -41,7 +43,7 @@ def test_a_chosen_foothold_is_fit_and_near(name: str, place, off) -> None:
     asked = wish(name, *place, tuple(np.add(place, off).tolist()), lean=(-1.0, 0.0))
     found, x, y = choose_foothold(GROUNDS[name], asked)
     if found:
-        assert is_fit(GROUNDS[name], *nearest(GROUNDS[name], x, y), asked)
+        assert is_fit(GROUNDS[name], *nearest(GROUNDS[name], x, y), asked, RIM)
         assert math.dist((x, y), place) <= SEARCHED * H + 0.03
     else:
         assert (x, y) == place
@@ -50,8 +52,33 @@ def test_a_chosen_foothold_is_fit_and_near(name: str, place, off) -> None:
 @given(names, places)
 def test_what_is_fit_already_is_left(name: str, place) -> None:
     asked = wish(name, *place, place)
-    assume(is_fit(GROUNDS[name], *nearest(GROUNDS[name], *place), asked))
+    assume(is_fit(GROUNDS[name], *nearest(GROUNDS[name], *place), asked, RIM))
     assert choose_foothold(GROUNDS[name], asked) == (True, *place)
+
+
+@pytest.mark.parametrize(("swung", "goes_over"), [(0.0, True), (0.5, False), (0.9, False)])
+def test_far_into_its_swing_a_foot_keeps_to_its_side_of_a_gap(swung: float, goes_over: bool) -> None:
+    """A gap from 0.01 to 0.19 m. The foot was to land before it, and the wish has gone past its middle."""
+    edges = np.zeros((50, 50))
+    edges[:, 26:35] = 1.0
+    ground = ElevationGrid(np.array([-0.5, -0.5, 0.02]), np.zeros((50, 50)), edges)
+    asked = FootholdRequest(0.16, 0.0, 0.0, 0.0, 0.0, 0.1, (0.0, 0.0), H, swung)
+    found, x, _ = choose_foothold(ground, asked)
+    assert found and x == pytest.approx(0.2 if goes_over else 0.0)
+
+
+def test_on_a_rim_stands_nobody_who_has_a_choice_but_it_stops_nobody() -> None:
+    """Even ground, all of which lies beside what is hidden but for what is beyond 0.1 m."""
+    spacing, n = 0.02, 200
+    rims = np.full((n, n), RIM)
+    rims[:, : n // 2] = 0.0
+    ground = ElevationGrid(np.array([-2.0, -2.0, spacing]), np.zeros((n, n)), rims)
+    asked = FootholdRequest(0.04, 0.0, 0.04, 0.0, 0.0, 0.1, (0.0, 0.0), H)
+    found, x, _ = choose_foothold(ground, asked)
+    assert found and x < 0.0
+    assert not last_foothold(ground, (-0.5, 0.0), 0.0, 0.0, 1.5, 0.05, 0.1, 0.3, H)[0]
+    broken = ground._replace(edges=np.where(rims > 0.0, 1.0, 0.0))
+    assert last_foothold(broken, (-0.5, 0.0), 0.0, 0.0, 1.5, 0.05, 0.1, 0.3, H)[0]
 
 
 def moved(rng: np.random.Generator) -> tuple[str, FootholdRequest, tuple[float, float]]:
@@ -75,7 +102,7 @@ def test_nothing_nearer_would_have_done(seed: int) -> None:
         for column in range(ground.heights.shape[1]):
             at = (ground.place[0] + column * spacing, at_y)
             if abs(at_y - place[1]) < 0.2 and math.dist(at, place) < math.dist((x, y), place) - 1e-9:
-                assert not is_fit(ground, row, column, asked)
+                assert not is_fit(ground, row, column, asked, RIM)
 
 
 def test_the_shank_needs_room_behind_a_step_down() -> None:

@@ -219,13 +219,30 @@ def shortest(edges, bounds, start, goal, radius, quad_segs=12) -> float:
     rings = [r for p in getattr(solid, "geoms", [solid]) for r in (p.exterior, *p.interiors)]
     nodes = np.array([start, goal, *(c for ring in rings for c in ring.coords[:-1])])
     shrunk = shapely.union_all(shapely.buffer(lines, radius - 1e-6, quad_segs=quad_segs))
-    shapely.prepare(shrunk)
     inside = shapely.contains_xy(shapely.box(*bounds), nodes[:, 0], nodes[:, 1])
     inside[:2] = True
-    nodes = nodes[inside]
+    return over_pairs(nodes[inside], shrunk)
+
+
+def by_mitred_corners(polygons, bounds, radius, start, goal) -> float:
+    """Length of the shortest path by all pairs of corners of outlines that were grown without rounding them
+    (beyond 1.5 radii they are cut off): none of a disc is longer. `bounds`: of its middle."""
+    mitred = {"join_style": "mitre", "mitre_limit": 1.5}
+    grown = shapely.union_all([Polygon(polygon).buffer(radius, **mitred) for polygon in polygons])
+    parts = [part for part in getattr(grown, "geoms", [grown]) if not part.is_empty]
+    rings = [ring for part in parts for ring in (part.exterior, *part.interiors)]
+    nodes = np.array([start, goal, *(corner for ring in rings for corner in ring.coords[:-1])])
+    inside = shapely.contains_xy(shapely.box(*bounds), nodes[:, 0], nodes[:, 1])
+    return over_pairs(nodes[inside], shapely.union_all([part.buffer(-1e-6) for part in parts]))
+
+
+def over_pairs(nodes, solid) -> float:
+    """Length of the shortest path from the first to the second of some nodes by straight lines that do not
+    enter what is solid; every pair is tried."""
+    shapely.prepare(solid)
     i, j = np.triu_indices(len(nodes), 1)
     links = np.atleast_1d(shapely.linestrings(np.stack([nodes[i], nodes[j]], axis=1)))
-    clear = ~shapely.intersects(shrunk, links)
+    clear = ~shapely.intersects(solid, links)
     graph = np.zeros((len(nodes), len(nodes)))
     graph[i[clear], j[clear]] = np.maximum(shapely.length(links[clear]), 1e-12)
     return float(dijkstra(graph, directed=False, indices=0)[1])

@@ -11,6 +11,7 @@ from plane_world import (
     RADIUS,
     WIDER,
     box_at,
+    by_mitred_corners,
     clearance_of,
     exists,
     fence_edges,
@@ -22,14 +23,12 @@ from plane_world import (
     turned,
     walk,
 )
-from shapely import LineString, Polygon
+from shapely import LineString, Point, Polygon
 
 from gaitwright.errors import WrongUse
 from gaitwright.navigation.learned_map import LearnedMap
-from gaitwright.navigation.obstacles import PlanView
 from gaitwright.navigation.piece_rows import FELT, KIND, SEEN, SUPPOSED
 from gaitwright.navigation.tolerances import CHECK, LINK, NODE, STOP, TOUCH, WORTH
-from gaitwright.navigation.visibility import shortest_path
 from gaitwright.signals import Sight
 
 BOUNDS = (0.0, 0.0, 6.0, 6.0)
@@ -55,6 +54,31 @@ def random_world(seed: int):
 
 def empty(**settings) -> LearnedMap:
     return LearnedMap.of(BOUNDS, RADIUS, **settings)
+
+
+# --- turning ---------------------------------------------------------------------------------------
+WALL_AHEAD = Sight((1.0, 3.0), np.array([[2.0, 1.54, 2.0, 4.47]]), np.ones((1, 2), bool), np.empty((0, 2)))
+"""A wall that ends a little nearer on the right side of who comes along x."""
+
+
+@pytest.mark.parametrize("facing", [-1.2, 0.0, 1.2, 1.2 - 2.0 * math.pi])
+def test_of_ways_about_as_short_the_one_it_faces_is_taken(facing):
+    """So that it does not turn to and fro before a wall of which it sees more with every look."""
+    known, goal = empty().seen(WALL_AHEAD), (5.0, 3.0)
+    right, facing_it = known.way((1.0, 3.0), goal), known.way((1.0, 3.0), goal, facing)
+    assert right is not None and right.path[0][1] < 2.0
+    assert facing_it is not None and not facing_it.is_walked
+    turns_left = math.remainder(facing, 2.0 * math.pi) > 0.5
+    assert (facing_it.path[0][1] > 4.0) == turns_left
+    assert right.length <= facing_it.length <= 1.03 * right.length
+    assert facing_it.optimistic == pytest.approx(right.length)
+    ends = np.vstack([(1.0, 3.0), facing_it.path])
+    assert facing_it.length == pytest.approx(np.hypot(*np.diff(ends, axis=0).T).sum())
+
+
+def test_facing_changes_nothing_where_all_is_known():
+    known = LearnedMap.of_polygons(BOUNDS, RADIUS, [[(2.0, 1.6), (2.1, 1.6), (2.1, 4.5), (2.0, 4.5)]])
+    assert known.way((1.0, 3.0), (5.0, 3.0), 1.2) == known.way((1.0, 3.0), (5.0, 3.0))
 
 
 # --- known from the start --------------------------------------------------------------------------
@@ -84,21 +108,18 @@ def test_round_a_pole_a_disc_goes_along_its_polygon() -> None:
 
 @given(st.integers(0, 10_000))
 def test_it_is_as_good_as_corners_of_mitred_outlines(seed: int) -> None:
-    """Beside `visibility`, which grows outlines without rounding them: never longer."""
+    """Beside a search among outlines that were grown without rounding them: never longer."""
     rng = np.random.default_rng(seed)
     drawn = np.hstack(
         [rng.uniform(1.0, 5.0, (8, 2)), rng.uniform(0.2, 1.5, (8, 2)), rng.uniform(0.0, 3.0, (8, 1))]
     )
     boxes = [box_at(*numbers) for numbers in drawn.tolist()]
-    mitred = {"join_style": "mitre", "mitre_limit": 1.5}
-    grown = shapely.union_all([Polygon(box).buffer(RADIUS + 1e-3, **mitred) for box in boxes])
-    view = PlanView(tuple(getattr(grown, "geoms", [grown])), shapely.box(*BOUNDS).buffer(-RADIUS - 1e-3))
-    if view.blocked(START) or view.blocked(GOAL):
+    if any(Polygon(box).distance(Point(place)) <= RADIUS + 1e-3 for box in boxes for place in (START, GOAL)):
         return
-    theirs = shortest_path(view, START, GOAL)
+    inner = (BOUNDS[0] + RADIUS, BOUNDS[1] + RADIUS, BOUNDS[2] - RADIUS, BOUNDS[3] - RADIUS)
+    theirs = by_mitred_corners(boxes, inner, RADIUS + 1e-3, START, GOAL)
     way = LearnedMap.of_polygons(BOUNDS, RADIUS, boxes).way(START, GOAL)
-    if theirs is not None:
-        assert way.length <= LineString([START, *theirs]).length + 1e-9
+    assert theirs == math.inf or way.length <= theirs + 1e-9
 
 
 def test_a_goal_that_is_shut_in_is_found_to_be_from_its_side() -> None:
@@ -295,6 +316,16 @@ def test_what_was_felt_stays_until_the_trip_is_over_or_leads_through_it() -> Non
 
 
 # --- the robot's own place, odd places ---------------------------------------------------------------
+@pytest.mark.parametrize("off", [0.001, 0.01, 0.02, 0.035, 0.05, 0.07])
+def test_off_the_middle_of_a_passage_that_is_just_wide_enough_it_finds_out(off: float) -> None:
+    """Whoever stands nearer to one wall than r first has to go straight away from it, to the millimetre."""
+    half = RADIUS + 0.0005
+    walls = [box_at(3.0, 3.0 + side * (half + 0.05), 2.0, 0.1) for side in (-1.0, 1.0)]
+    way = LearnedMap.of_polygons(BOUNDS, RADIUS, walls).way((3.0, 3.0 + off), GOAL)
+    assert way is not None and abs(way.path[0][1] - 3.0) < 0.0005
+    assert clearance_of(ring_edges(walls), way.path) >= RADIUS - 2.0 * LINK
+
+
 @pytest.mark.parametrize("away", [0.0, 1e-9, 0.01, 0.05, 0.1, 0.15, 0.1599])
 def test_a_start_too_near_to_something_is_left(away: float) -> None:
     wall = [(0.5, 3.0), (5.5, 3.0)]

@@ -1,17 +1,21 @@
 """The navigator passes way-points in order, says where it has come to, and why there is no way."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from shapely import Point, Polygon
+from shapely import LineString, Point, Polygon
 
 from gaitwright.ground.scene import Scene
 from gaitwright.ground.terrain import Box, Flat
-from gaitwright.navigation.navigator import ARRIVED, PASSED, STOP_AT, Navigator
+from gaitwright.navigation.known_field import known_field
+from gaitwright.navigation.navigator import Navigator
+from gaitwright.navigation.reached import ARRIVED, PASSED, STOP_AT
+from gaitwright.navigation.room_needed import half_width
+from gaitwright.navigation.travel import Travel
 from gaitwright.perception.known_ground import map_of
 from gaitwright.signals import GroundMap, Mission, Route, Sensed
 from robots_by_hand import dog
@@ -24,15 +28,20 @@ places = st.tuples(st.floats(-3.9, 9.9), st.floats(-3.9, 3.9))
 
 @dataclass(frozen=True)
 class Pilot:
-    """The dog's navigator over a map of its own, without eyes."""
+    """The dog's navigator over a map of its own, without eyes; it turns wherever it is."""
 
     ground: GroundMap
+    navigator: Navigator = field(default_factory=lambda: Navigator(DOG, makes_room=False))
 
     def set_out(self, mission: Mission, sensed: Sensed) -> Route:
-        return Navigator(DOG).set_out(mission, sensed, self.ground)[0]
+        return self.navigator.set_out(mission, sensed, self.ground)[0]
 
     def plan(self, route: Route, sensed: Sensed) -> Route:
-        return Navigator(DOG).plan(route, sensed, self.ground, None, frozenset())[0]
+        return self.navigator.plan(route, sensed, self.ground, None, self.memory(route))[0]
+
+    def memory(self, route: Route) -> Travel:
+        """Of a route to one goal."""
+        return Travel(known_field(self.ground, half_width(DOG)), route.path[-1:])
 
 
 def among(*boxes: Box) -> Pilot:
@@ -74,7 +83,7 @@ def test_following_the_path_drops_its_points_and_ends_arrived() -> None:
     block = Box(3.0, 0.1, 0.0, 1.0, 1.0, 1.0)
     navigator, here = among(block), np.zeros(2)
     route = navigator.set_out(Mission(((6.0, 0.0), (6.0, 2.0))), at(*here))
-    assert len(route.path) == 4
+    assert len(route.path) > 3 and (6.0, 0.0) in route.path
     left = [route.remaining]
     while not route.arrived and len(left) < 2000:
         way = np.array(route.path[0]) - here
@@ -133,9 +142,41 @@ def test_a_way_point_is_passed_near_enough_and_the_last_one_never() -> None:
     [
         ((20.0, 0.0), (), "(20, 0) lies outside the scene"),
         ((3.0, 0.0), (Box(3.0, 0.0, 0.0, 1.0, 1.0, 1.0),), "on (3, 0) stands an obstacle"),
+        ((3.0, 0.6), (Box(3.0, 0.0, 0.0, 1.0, 1.0, 1.0),), "on (3, 0.6) stands an obstacle"),
         ((6.0, 0.0), (Box(3.0, 0.0, 0.0, 0.2, 9.0, 1.0),), "to (6, 0) leads no way"),
     ],
 )
 def test_where_there_is_no_way_it_says_why(goal, boxes, sentence: str) -> None:
     route = among(*boxes).set_out(Mission(((1.0, 0.0), goal)), at(0.0, 0.0))
     assert (route.no_way, route.path) == (sentence, ())
+
+
+def test_a_robot_that_was_pushed_aside_goes_on_from_there_and_keeps_clear() -> None:
+    """The straight line back to its path would lead through the corner of the block."""
+    block = Box(3.0, 0.0, 0.0, 2.0, 2.0, 1.0)
+    pilot = among(block)
+    route = pilot.set_out(Mission(((6.0, 0.0),)), at(0.0, 0.0))
+    side = math.copysign(1.0, route.path[0][1])
+    pushed = (1.7, -side * 1.1)
+    later = pilot.plan(route, at(*pushed))
+    assert later.path != route.path and later.path[-1] == (6.0, 0.0)
+    assert Polygon(block.corners()).distance(LineString([pushed, *later.path])) > half_width(DOG) - 1e-5
+
+
+def test_a_robot_that_is_pushed_where_no_way_leads_from_goes_on_as_well_as_it_can() -> None:
+    """Nothing new is known: that there is no way would be a word of its own place alone."""
+    pen = [Box(2.0, s * 0.35, 0.0, 1.0, 0.1, 1.0) for s in (1, -1)] + [Box(1.45, 0.0, 0.0, 0.1, 0.8, 1.0)]
+    pilot = among(*pen, Box(2.55, 0.0, 0.0, 0.1, 0.8, 1.0))
+    route = pilot.set_out(Mission(((6.0, 0.0),)), at(0.0, 2.0))
+    later = pilot.plan(route, at(2.0, 0.0))
+    assert later.no_way is None and later.path == route.path
+
+
+def test_known_ground_that_is_arranged_anew_on_the_way_is_planned_anew() -> None:
+    before, after = among(), among(Box(3.0, 0.1, 0.0, 0.5, 1.0, 1.0))
+    route = before.set_out(Mission(((6.0, 0.0),)), at(0.0, 0.0))
+    again, memory = Navigator(DOG).plan(route, at(0.1, 0.0), after.ground, None, before.memory(route))
+    assert len(again.path) > 1 and memory.known is after.memory(route).known
+    shut = among(Box(3.0, 0.0, 0.0, 0.2, 9.0, 1.0))
+    ended, _ = Navigator(DOG).plan(route, at(0.1, 0.0), shut.ground, None, before.memory(route))
+    assert (ended.no_way, ended.path) == ("to (6, 0) leads no way", ())

@@ -66,7 +66,7 @@ def test_one_frame_makes_known_what_it_hit_and_nothing_else():
     rows, columns = np.nonzero(seen.known)
     assert {(r + seen.first[0], c + seen.first[1]) for r, c in zip(rows, columns, strict=True)} == inside
     for row, column in inside:
-        height, variance, low, high, time = seen.cells[row % seen.n, column % seen.n]
+        height, variance, low, high, time, _ = seen.cells[row % seen.n, column % seen.n]
         z = np.array(wanted[row, column])
         assert z.min() - 1e-5 <= height <= z.max() + 1e-5 and time == 0.0
         assert low <= height <= high and z.min() - 1e-5 <= low and high <= z.max() + 1e-5

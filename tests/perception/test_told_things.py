@@ -10,13 +10,12 @@ from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.ground.solids import Cylinder
 from gaitwright.ground.terrain import Box, Flat
 from gaitwright.locomotion import Brain
-from gaitwright.navigation.told_anew import rest_of
 from gaitwright.perception.estimated_state import EstimatedState
 from gaitwright.perception.known_ground import KnownGround
 from gaitwright.perception.told_things import EVERY, STANDS, ToldThings, with_things
 from gaitwright.plant.mujoco.simulation import MujocoPlant
 from gaitwright.session import Session
-from gaitwright.signals import Measured, Mission, Route
+from gaitwright.signals import Measured, Mission
 from oracles import robot_called
 from sights import posed
 
@@ -109,14 +108,6 @@ def test_told_of_another_arrangement_it_knows_that_one() -> None:
 
 
 # --- the way -----------------------------------------------------------------------------------------
-def test_the_rest_of_a_mission_is_what_its_route_leads_over() -> None:
-    mission = Mission(((1.0, 0.0), (2.0, 0.0), (1.0, 0.0)), 0.4)
-    assert rest_of(mission, Route(((1.0, 0.0), (1.5, 1.0), (2.0, 0.0), (1.0, 0.0)), 4.0, 0.4)) == mission
-    later = rest_of(mission, Route(((1.5, 1.0), (2.0, 0.0), (1.0, 0.0)), 3.0, 0.4))
-    assert later.waypoints == ((2.0, 0.0), (1.0, 0.0)) and later.speed == 0.4
-    assert rest_of(mission, Route(((1.0, 0.0),), 1.0, 0.4)).waypoints == ((1.0, 0.0),)
-
-
 def test_what_appears_is_walked_around_and_way_points_behind_are_left_behind() -> None:
     appears = Mover(Box(2.4, 0.0, 0.0, 0.4, 0.8, 0.5), appears=2.0)
     scene = Scene("yard", Flat(), (), (-2.0, -4.0, 6.0, 4.0), movers=(appears,))

@@ -21,14 +21,15 @@ from gaitwright.cli.arg_types import (
     lesson_named,
     package,
     plant,
-    point,
     positive,
     seed,
     sensing,
     sensors,
 )
 from gaitwright.cli.balance_arguments import add_balance
+from gaitwright.cli.guidance_arguments import SECONDS, add_guidance
 from gaitwright.cli.operator_arguments import add_operators
+from gaitwright.cli.scanner_arguments import add_scanner
 from gaitwright.cli.sight_arguments import add_sight
 from gaitwright.plant.names import FAULTS, INTEGRATORS, JOINTS, PLANTS, SENSORS
 
@@ -45,10 +46,7 @@ def add_mission(parser: argparse.ArgumentParser) -> None:
     add_robot_and_scene(parser, scene="blocks")
     start = "start here, yaw in radians (where the scene says)"
     parser.add_argument("--start", type=finite, nargs=3, metavar=("X", "Y", "YAW"), help=start)
-    where = parser.add_mutually_exclusive_group(required=True)
-    where.add_argument("--goal", type=finite, nargs=2, metavar=("X", "Y"), help="where to go [m]")
-    through = "points to pass in this order; the last one is the goal"
-    where.add_argument("--waypoints", type=point, nargs="+", metavar="X,Y", help=through)
+    add_guidance(parser)
     fitting = "wished speed in m/s (what the robot trots at)"
     parser.add_argument("--speed", type=positive, metavar="V", help=fitting)
     rules = (
@@ -61,17 +59,16 @@ def add_mission(parser: argparse.ArgumentParser) -> None:
         "step, more torque than there is, no way made), and how far the learned controller can be trusted"
     )
     parser.add_argument("--learn", action="store_true", help=own)
-    add_run(parser, seconds=120.0)
+    add_run(parser, seconds=SECONDS)
+    parser.set_defaults(seconds=None)  # with --velocity: as long as its commands
 
 
 def add_skill(parser: argparse.ArgumentParser) -> None:
     add_robot_and_scene(parser, scene="flat")
-    parser.add_argument(
-        "--skill", default="trot", metavar="NAME", help="a name that `gaitwright skills` lists (trot)"
-    )
-    parser.add_argument(
-        "--speed", type=finite, metavar="V", help="along the skill's way, in m/s (what it is meant for)"
-    )
+    which = "a name that `gaitwright skills` lists (trot)"
+    parser.add_argument("--skill", default="trot", metavar="NAME", help=which)
+    along = "along the skill's way, in m/s (what it is meant for)"
+    parser.add_argument("--speed", type=finite, metavar="V", help=along)
     parser.add_argument("--lateral", type=finite, default=0.0, metavar="V", help="to the left, in m/s (0)")
     parser.add_argument(
         "--turn",
@@ -294,6 +291,7 @@ ADD = {
     "books": add_books,
     "operators": add_operators,
     "balance": add_balance,
+    "scanner": add_scanner,
     "bench": add_bench,
     "reproduce": add_reproduce,
     "doctor": add_nothing,

@@ -1,25 +1,30 @@
 """`gaitwright mission`: take a robot to a goal."""
 
 from argparse import Namespace
+from collections.abc import Callable
 from dataclasses import replace
 
 from gaitwright.cli import trips
 from gaitwright.cli.book_files import rulebook_of
 from gaitwright.cli.console import remark
 from gaitwright.cli.driving import BY_BOOK, balance_for, by_book, profiles_for, profiles_to_play
+from gaitwright.cli.guidance_arguments import SECONDS, check_strategy, guidance_of
 from gaitwright.cli.mission_book import book_of, keep_map, with_map
 from gaitwright.cli.sight_arguments import sight_of
 from gaitwright.control.balance_rules import BalanceRules
 from gaitwright.control.takeover import LEARNED
 from gaitwright.driving import Memories
-from gaitwright.errors import WrongUse
+from gaitwright.errors import WrongUse, short
+from gaitwright.ground.scene import Scene
 from gaitwright.learning.growth import Returns
 from gaitwright.learning.practice import after_trip
+from gaitwright.missions import Programme, Steering
 from gaitwright.model.robot import Robot
 from gaitwright.record.recording import Recording
 from gaitwright.signals import Mission
 from gaitwright.skillbook.writer import Ledger
 from gaitwright.skills.chooser import DefaultChooser
+from gaitwright.skills.commanded import check_velocity
 from gaitwright.skills.rule_chooser import RuleChooser
 from gaitwright.stages import Chooser
 
@@ -29,21 +34,19 @@ NOTHING = "nothing went wrong that the robot noticed: nothing was learned, and t
 def run(args: Namespace) -> int:
     trips.check_outputs(args)
     check_book(args)
-    balance = balance_for(args)  # a file that cannot be read is told before anything is made
+    check_strategy(args)
+    balance, guidance = balance_for(args), guidance_of(args)  # a file that cannot be read is told at once
     robot = trips.find_robot(args.robot, args.package)
     sight = sight_of(args, robot)
     scene = trips.find_scene(args.scene, args.seed, robot, args.start)
-    points = tuple(args.waypoints or [tuple(args.goal)])
-    for point in points[:-1]:
-        trips.check_inside("way-point", point, scene)
-    trips.check_inside("goal", points[-1], scene)
-    if args.speed is not None:
-        DefaultChooser(robot).gait_for(args.speed)  # refuses a speed beyond the robot's reach
-    mission, name = Mission(points, args.speed, args.driver), f"{scene.name} (seed {args.seed})"
+    mission, name = mission_of(args, robot, scene, guidance), f"{scene.name} (seed {args.seed})"
+    args.seconds = args.seconds or (guidance.ends if isinstance(guidance, Steering) else None) or SECONDS
     with book_of(args, robot) as ledger:  # from the beginning: nobody else teaches it meanwhile
         chooser = chooser_of(robot, args, ledger)
         plain = trips.set_up(robot, scene, chooser, args.distribution, args.sensing, sight)
         setting = with_profiles(plain, args, balance)
+        if args.strategy:
+            setting = replace(setting, brain=setting.brain.with_strategy(args.strategy))
         if ledger is not None and args.sight == "camera":
             setting = with_map(setting, ledger, name)
 
@@ -56,12 +59,45 @@ def run(args: Namespace) -> int:
         return trips.run(setting, mission, args, after=after)
 
 
+def mission_of(args: Namespace, robot: Robot, scene: Scene, guidance: Programme | Steering | None) -> Mission:
+    """What is asked for. Raises `WrongUse` for what lies outside the scene, or beyond the robot's reach."""
+    if isinstance(guidance, Steering):
+        for row, velocity in enumerate(guidance.velocities, start=1):
+            in_row(args.velocity, row, lambda v=velocity: check_velocity(robot, v))
+        return Mission((), driver=args.driver, guidance=guidance)
+    chooser = DefaultChooser(robot)
+    if args.speed is not None:
+        chooser.gait_for(args.speed)  # refuses a speed beyond the robot's reach
+    if isinstance(guidance, Programme):
+        for row, stop in enumerate(guidance.stops, start=1):
+            in_row(args.route, row, lambda s=stop: trips.check_inside("stop", (s.x, s.y), scene))
+            in_row(args.route, row, lambda s=stop: chooser.gait_for(s.speed or 0.0))
+        return Mission((), args.speed, args.driver, guidance)
+    points = tuple(args.waypoints or [tuple(args.goal)])
+    for point in points[:-1]:
+        trips.check_inside("way-point", point, scene)
+    trips.check_inside("goal", points[-1], scene)
+    return Mission(points, args.speed, args.driver)
+
+
+def in_row(path: str, row: int, check: Callable[[], object]) -> None:
+    """Raises what a check raises, with the row of the file in front."""
+    try:
+        check()
+    except WrongUse as error:
+        raise WrongUse(f"{short(path)}, row {row}: {error}") from None
+
+
 def check_book(args: Namespace) -> None:
     """`WrongUse` for a book that nobody needs, or that is needed and not there."""
     needed, named = args.driver in BY_BOOK, args.skillbook is not None
     if args.learn and not (needed and named):
         raise WrongUse(
             "--learn: a robot learns into a book, so driver hybrid and --skillbook FILE go with it"
+        )
+    if args.learn and args.velocity:
+        raise WrongUse(
+            "--learn: a robot learns from what it does of itself, not from what --velocity told it"
         )
     if needed != named and (needed or args.sight != "camera"):
         raise WrongUse(

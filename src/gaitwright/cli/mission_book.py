@@ -15,7 +15,7 @@ from gaitwright.errors import WrongUse, short
 from gaitwright.files import is_there
 from gaitwright.learning.map_books import known, map_in, notes_of, with_trip
 from gaitwright.model.robot import Robot
-from gaitwright.navigation.explorer import Explored, Explorer
+from gaitwright.navigation.travel import Travel
 from gaitwright.record.recording import Recording
 from gaitwright.skillbook.book import Skillbook
 from gaitwright.skillbook.writer import Ledger, open_for_learning
@@ -55,10 +55,9 @@ def book_of(args: Namespace, robot: Robot) -> Iterator[Ledger | None]:
 
 def with_map(setting: trips.Setting, ledger: Ledger, place: str) -> trips.Setting:
     """The same with what the book knows of the place, which is said."""
-    explorer = setting.brain.navigator
-    assert isinstance(explorer, Explorer), "a robot with a camera explores"
+    nothing = setting.brain.explorer.nothing(setting.scene.bounds)
     try:
-        learned = map_in(ledger.book, place, explorer.nothing(setting.scene.bounds))
+        learned = map_in(ledger.book, place, nothing)
     except WrongUse as error:
         remark(f"{error}: it is learned anew")
         return setting
@@ -71,8 +70,8 @@ def with_map(setting: trips.Setting, ledger: Ledger, place: str) -> trips.Settin
 
 def keep_map(ledger: Ledger, recording: Recording, memories: Memories, place: str) -> None:
     """Writes what the robot knows of the place now, and the way that it walked, into the book."""
-    explored = memories.navigator
-    assert isinstance(explored, Explored), "a robot with a camera explores"
-    learned = with_trip(explored.known, recording)
+    travel = memories.navigator
+    assert isinstance(travel, Travel)
+    learned = with_trip(travel.known, recording)
     ledger.keep_map(notes_of(learned, place))
     remark(f"the map of {place} is now: {known(learned)}")

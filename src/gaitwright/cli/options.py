@@ -10,7 +10,7 @@ import re
 from typing import NamedTuple, NoReturn
 
 from gaitwright.cli.arguments import ADD
-from gaitwright.cli.sentences import between_words
+from gaitwright.cli.help_format import WholeWords, Wrapped
 from gaitwright.errors import WrongUse, unknown
 
 
@@ -27,20 +27,23 @@ COMMANDS = {
         "the whole story: a robot crosses a field, learns, and crosses another one",
         "Without arguments and without network: go2 walks from (0, 0) to (6, 0) among blocks, over the low "
         "ones and around the high ones, by the numerical controller. Then it goes to school, which takes "
-        "about a minute, and crosses another field by what it has learned. Prints the figures of both trips "
-        "and leaves pictures, recordings, reports and the skillbook in a new folder runs/demo-NNN.",
+        "about a minute, and crosses another field by what it has learned. It has never been in either: it "
+        "knows what its camera shows. Then a bay lies in its way to (12, 0), twice: the second time it goes "
+        "by the map that it made the first time. Prints the figures of all trips and leaves pictures, "
+        "recordings, reports, the skillbook and the map in a new folder runs/demo-NNN; --json tells of the "
+        "second field. Exit code 0: it arrives every time; 1: it does not.",
         ("gaitwright demo", "gaitwright demo --seed 3 --out runs/three", "gaitwright demo --json -"),
     ),
     "mission": Command(
         "take a robot to a goal",
-        "Takes a robot through a scene to a goal and reports how it went. Exit code 0: it stands at the "
-        "goal; 1: it does not, and `stopped_because` says why. The scenes that come along are made for "
-        "robots up to 0.6 m tall; for a taller one every length of the scene is multiplied by its height / "
-        "0.29 m, rounded (9 for `thesis`).",
+        "Takes a robot through a scene to a goal, or as a file says (--route, --velocity), and reports how "
+        "it went. Exit code 0: it stands at the goal, or did as told; 1: it does not, and `stopped_because` "
+        "says why. The scenes that come along are made for robots up to 0.6 m tall; for a taller one every "
+        "length of the scene is multiplied by its height / 0.29 m, rounded (9 for `thesis`).",
         (
-            "gaitwright mission --goal 6 0",
             "gaitwright mission --scene rough:0.03 --waypoints 2,1 4,-1 6,0 --speed 0.5 --out runs/rough",
-            "gaitwright mission --robot thesis --goal 54 0 --seed 1 --json -",
+            "gaitwright mission --sight camera --strategy thesis --scene bugtrap --goal 12 0",
+            "gaitwright mission --scene flat --route rounds.csv     # or --velocity commands.csv",
         ),
     ),
     "skill": Command(
@@ -159,6 +162,19 @@ COMMANDS = {
             "gaitwright skill --driver learned --skillbook go2.skills --balance mine.json --push 1.5 90",
         ),
     ),
+    "scanner": Command(
+        "what the terrain scanner held at a moment of a recorded run",
+        "Supporting feet, the support polygon and the coming one, the centre of gravity from above, where "
+        "each foot could be put, feet that may not be lifted, pitch and roll, and slope and height of the "
+        "ground ahead of each foot, as far as the robot knew it. With --out, `mission` and `skill` record it "
+        "20 times a second: in recording.npz under names that begin with scanner_, in recording.mcap as "
+        "/gaitwright/scanner.",
+        (
+            "gaitwright scanner runs/walk/recording.npz",
+            "gaitwright scanner runs/walk/recording.npz --at 4.2 --plot --out scanner.png",
+            "gaitwright scanner runs/walk/recording.npz --at 4.2 --json -",
+        ),
+    ),
     "bench": Command(
         "every claim, measured",
         "Measures what this project claims about itself, on this machine. Without names: everything.",
@@ -168,12 +184,13 @@ COMMANDS = {
         "tables and figures of the thesis",
         "Computes tables and figures of the thesis anew and holds them against what it says: what agrees, "
         "what does not, and what cannot. Prints them and leaves each as Markdown, the figures as PNG too, "
-        "over those of an earlier run. Names: table-6.1, table-6.2, figure-6.5, figure-6.6; without names: "
-        "all. Exit code 0: every claim agrees that can; 1: one does not.",
+        "over those of an earlier run. Names: table-6.1, table-6.2, figure-6.5, figure-6.6, figure-6.9, "
+        "figure-6.10, figure-6.11; without names: all. Figures 6.9 to 6.11 are walked anew in physics, which "
+        "takes up to a minute each. Exit code 0: every claim agrees that can; 1: one does not.",
         (
             "gaitwright reproduce",
-            "gaitwright reproduce table-6.1",
-            "gaitwright reproduce figure-6.6 --out here",
+            "gaitwright reproduce table-6.1 figure-6.6 --out here",
+            "gaitwright reproduce figure-6.11 --json -     # its paths and maps as numbers",
         ),
     ),
     "doctor": Command(
@@ -259,37 +276,6 @@ def all_parsers() -> tuple[Parser, dict[str, argparse.ArgumentParser]]:
             "--json", metavar="FILE|-", help="write the figures as JSON; - is the standard output"
         )
     return top, parsers
-
-
-class WholeWords(argparse.RawDescriptionHelpFormatter):
-    """Breaks the help of options between words, never within `turn-right`."""
-
-    def _split_lines(self, text: str, width: int) -> list[str]:
-        return between_words(" ".join(text.split()), width)
-
-
-class Wrapped(WholeWords):
-    """Wraps the description too, and the examples where a shell would take them so."""
-
-    def _fill_text(self, text: str, width: int, indent: str) -> str:
-        if text.startswith("examples:"):
-            return "\n".join(part for line in text.split("\n") for part in example_lines(line, width))
-        return "\n".join(between_words(" ".join(text.split()), width))
-
-
-def example_lines(example: str, width: int) -> list[str]:
-    """An example that is wider than the screen: what is said of it above, the command over several lines."""
-    if len(example) <= width:
-        return [example]
-    command, _, about = (part.rstrip() for part in example.partition("#"))
-    lines = [""]
-    for option in re.split(r" (?=--)", command):
-        if lines[-1] and len(lines[-1]) + len(option) + 3 > width:
-            lines[-1] += " \\"
-            lines.append(" " * 6 + option)
-        else:
-            lines[-1] += " " * bool(lines[-1]) + option
-    return [*([f"  #{about}"] if about else []), *lines]
 
 
 class Version(argparse.Action):

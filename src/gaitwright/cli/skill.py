@@ -19,7 +19,7 @@ from gaitwright.model.robot import Robot
 from gaitwright.session import DT, Push
 from gaitwright.signals import Mission, SkillCall
 from gaitwright.skills.chooser import HeldSkill, fixed_skill
-from gaitwright.skills.library import fastest_turn, feet_reach, find_skill
+from gaitwright.skills.library import check_turn, find_skill
 
 PLANNED = ("climb", "descend")
 """Skills that are planned beforehand on the plant without mechanics."""
@@ -39,7 +39,7 @@ def run(args: Namespace) -> int:
     if args.plant == "kinematic" and skill.name in PLANNED:
         return climb_by_plan(robot, scene, args)
     chooser = fixed_skill(robot, args.skill, args.speed, args.lateral, args.turn, args.driver)
-    check_turn(robot, chooser.skill_call)
+    check_turn(skill, robot, chooser.skill_call.turn)
     cycle = load_cycle(args.cycle) if args.cycle else None
     check_motors(robot, chooser.skill_call, cycle)
     push = Push(*args.push, at=args.seconds / 2) if args.push else None
@@ -78,13 +78,3 @@ def check_motors(robot: Robot, call: SkillCall, cycle: LegCycle | None = None) -
     told = shortage(*motion, cycle=cycle)
     if told:
         remark(f"{told}: it may not keep up")
-
-
-def check_turn(robot: Robot, call: SkillCall) -> None:
-    """`WrongUse` for a yaw rate beyond what the skill can do on this robot."""
-    most = fastest_turn(find_skill(call.skill, robot), robot)
-    if abs(call.turn) > most * (1 + 1e-9):
-        raise WrongUse(
-            f"{call.skill} at a yaw rate of {call.turn:g} rad/s is beyond the reach of {robot.name}, whose "
-            f"feet are up to {feet_reach(robot):.2f} m from its middle: at most {most:.2f} rad/s"
-        )

@@ -20,7 +20,8 @@ from gaitwright.ground.scene import Scene
 from gaitwright.locomotion import Brain, Lap
 from gaitwright.model.camera import Camera
 from gaitwright.model.robot import Robot
-from gaitwright.navigation.navigator import Navigator
+from gaitwright.navigation.known_field import is_blocked
+from gaitwright.navigation.room_needed import half_width
 from gaitwright.numerics.compiled import is_warm
 from gaitwright.perception.estimated_state import Sensing
 from gaitwright.perception.known_ground import map_of
@@ -110,7 +111,7 @@ def set_up(
         sees = sight != "blind"
         brain = Brain.of(robot, scene, chooser, DT, distribution, sees=sees, sensing=sensing, camera=camera)
         true = map_of(scene, robot) if camera else brain.perception.ground  # a camera has seen nothing yet
-        on_obstacle = Navigator(robot).view(true).blocked((x, y))
+        on_obstacle = is_blocked(true, half_width(robot), (x, y))
     if on_obstacle:
         raise WrongUse(
             f"the start ({x:g}, {y:g}) is on an obstacle of scene {scene.name}, or too near to one"
@@ -187,7 +188,7 @@ def run(
         session = Session(setting.brain, whole, mission, args.seconds, args.seed, setting.varied, lowers=True)
         if push:
             session.push(push)
-        recording = record(session, args.seed, setting.scene.name, watch)
+        recording = record(session, args.seed, setting.scene.name, watch, previews=args.out is not None)
     if not len(recording):
         raise KeyboardInterrupt
     try:

@@ -180,7 +180,8 @@ def aim(state, leg, ground, step, x, y, plane, radius, lean, height):
     hold = state.foothold[leg]
     if is_known(ground):
         off = OFF_PLANE * step
-        wish = FootholdRequest(x, y, hold[0], hold[1], plane - radius, off, lean, height)
+        swung = state.progress[leg]
+        wish = FootholdRequest(x, y, hold[0], hold[1], plane - radius, off, lean, height, swung)
         _, x, y = choose_foothold(ground, wish)
         known = height_at(ground, x, y) + radius
         if abs(known - plane) < off:

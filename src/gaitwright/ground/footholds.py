@@ -13,7 +13,8 @@ from gaitwright.numerics.compiled import kernel
 SEARCHED = 0.6
 """Farthest neighbour of a wished foothold, in body heights."""
 FAITH = 0.5
-"""Weight of the distance from the foothold chosen so far, against that from the wished one."""
+"""Weight of the distance from the foothold chosen so far, against that from the wished one, as a swing
+begins; it grows with the inverse square of what is left of it, as what a foot can do in that falls."""
 OFF_PLANE = 1.4
 """Ground this many steps above or below the plane under the robot may be a foothold: a step, and what the
 plane lags behind the ground."""
@@ -21,6 +22,10 @@ SHANK = 0.6
 """Up to here over the ground the shank needs room, in body heights."""
 BONE = 0.08
 """Thickness of the shank and what it should keep clear, in body heights."""
+
+
+RIM = 0.75
+"""Mark of nodes beside what is hidden, among the edges: feet that choose keep off, but it stops nobody."""
 
 
 class FootholdRequest(NamedTuple):
@@ -39,13 +44,16 @@ class FootholdRequest(NamedTuple):
     """How far the shank leans out over the ground per height, world x, y."""
     height: float
     """Of the body [m]."""
+    swung: float = 0.0
+    """How much of its swing the foot has done, 0 … 1: the farther, the less it can still go elsewhere."""
 
 
 @kernel
-def is_fit(ground, row, column, wish):
-    """Whether a foot may stand on a node: no edge near, not too high or low, room for the shank."""
+def is_fit(ground, row, column, wish, mark):
+    """Whether a foot may stand on a node: no edge near (no mark of `mark` or more), not too high or low, room
+    for the shank."""
     z, h = ground.heights[row, column], wish.height
-    if ground.edges[row, column] > 0.5 or abs(z - wish.level) > wish.step:
+    if ground.edges[row, column] >= mark or abs(z - wish.level) > wish.step:
         return False
     spacing = ground.place[2]
     x, y = ground.place[0] + column * spacing, ground.place[1] + row * spacing
@@ -60,18 +68,19 @@ def is_fit(ground, row, column, wish):
 def choose_foothold(ground, wish):
     """The foothold nearest to a wished one: found or not, x, y [m]."""
     row, column = nearest(ground, wish.x, wish.y)
-    if is_fit(ground, row, column, wish):
+    if is_fit(ground, row, column, wish, RIM):
         return True, wish.x, wish.y
     rows, columns = ground.heights.shape
     spacing, limit = ground.place[2], (SEARCHED * wish.height) ** 2
     reach = int(SEARCHED * wish.height / spacing)
     least, best_x, best_y = math.inf, wish.x, wish.y
+    faith = FAITH / max(1.0 - wish.swung, 0.1) ** 2
     for i in range(max(row - reach, 0), min(row + reach + 1, rows)):
         for j in range(max(column - reach, 0), min(column + reach + 1, columns)):
             x, y = ground.place[0] + j * spacing, ground.place[1] + i * spacing
             far = (x - wish.x) ** 2 + (y - wish.y) ** 2
-            cost = far + FAITH * ((x - wish.before_x) ** 2 + (y - wish.before_y) ** 2)
-            if cost < least and far < limit and is_fit(ground, i, j, wish):
+            cost = far + faith * ((x - wish.before_x) ** 2 + (y - wish.before_y) ** 2)
+            if cost < least and far < limit and is_fit(ground, i, j, wish, RIM):
                 least, best_x, best_y = cost, x, y
     return least < math.inf, best_x, best_y
 
@@ -93,8 +102,8 @@ def last_foothold(ground, start, level, way, far, aside, step, stride, height):
             x = start[0] + at * ahead_x - k * aside * ahead_y
             y = start[1] + at * ahead_y + k * aside * ahead_x
             row, column = nearest(ground, x, y)
-            wish = FootholdRequest(x, y, x, y, level, allowed, (0.0, 0.0), height)
-            if is_fit(ground, row, column, wish):
+            wish = FootholdRequest(x, y, x, y, level, allowed, (0.0, 0.0), height, 0.0)
+            if is_fit(ground, row, column, wish, 1.0):
                 last, level, allowed, found = at, ground.heights[row, column], step, True
                 break
         if not found and at - last > stride:

@@ -8,11 +8,12 @@ import numpy as np
 from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.learning.kinematic import Course
 from gaitwright.model.robot import Robot
+from gaitwright.navigation.known_field import is_blocked, is_within
 from gaitwright.navigation.navigator import Navigator
-from gaitwright.navigation.obstacles import PlanView
+from gaitwright.navigation.room_needed import half_width
 from gaitwright.perception.known_ground import KnownGround
 from gaitwright.session import scene_scale
-from gaitwright.signals import Mission
+from gaitwright.signals import GroundMap, Mission
 from gaitwright.skills.library import speed_scale
 
 KINDS = ("flat", "slope", "cross-slope", "rough", "blocks", "blocks", "stairs", "ramp", "gap")
@@ -31,12 +32,11 @@ def course(robot: Robot, seed: int, kind: str = "", name: str = "") -> Course:
     kind = kind or KINDS[int(rng.integers(len(KINDS)))]
     scale = scene_scale(robot)
     scene = replace(scene_of(kind, rng, scale), start=(0.0, 0.0, 0.0))
-    navigator, perception = Navigator(robot), KnownGround.of(scene, robot)
+    navigator, perception = Navigator(robot, makes_room=False), KnownGround.of(scene, robot)
     low, high = SPEEDS[int(rng.integers(len(SPEEDS)))]
     speed = float(rng.uniform(low, high)) * speed_scale(robot)
-    points = way_points(
-        navigator.view(perception.ground), rng, scale, across=kind in ("stairs", "ramp", "gap")
-    )
+    is_across, room = kind in ("stairs", "ramp", "gap"), half_width(robot)
+    points = way_points(perception.ground, room, rng, scale, is_across)
     yaw = float(rng.uniform(-math.pi, math.pi)) if rng.uniform() < 0.5 else float(rng.normal(0.0, 0.3))
     return Course(
         robot,
@@ -65,15 +65,16 @@ def scene_of(kind: str, rng: np.random.Generator, scale: float) -> Scene:
 
 
 def way_points(
-    view: PlanView, rng: np.random.Generator, scale: float, across: bool
+    ground: GroundMap, room: float, rng: np.random.Generator, scale: float, across: bool
 ) -> tuple[tuple[float, float], ...]:
-    """One to three points that can be gone to, and often back again; `across`: over what lies along x."""
+    """One to three points that can be gone to with `room` [m] on both sides, and often back again; `across`:
+    over what lies along x."""
     far = scale * REACH
     points: list[tuple[float, float]] = [(1.5 * far, float(rng.uniform(-0.3, 0.3)) * far)] if across else []
     wanted = int(rng.integers(1, 4))
     while len(points) < wanted:
         point = (float(rng.uniform(-0.7, 2.2)) * far, float(rng.uniform(-0.8, 0.8)) * far)
-        if view.inside(point) and not view.blocked(point):
+        if is_within(ground.bounds, point) and not is_blocked(ground, room, point):
             points.append(point)
     there_and_back = [*points[-2::-1], (0.0, 0.0)] if rng.uniform() < BACK else []
     return (*points, *there_and_back)

@@ -15,7 +15,7 @@ from gaitwright.ground.scene import Scene
 from gaitwright.learning.decision_point import DecisionPoint, decision_point
 from gaitwright.model.kinematics import angles
 from gaitwright.model.robot import Robot
-from gaitwright.navigation.navigator import Navigator, Travelled
+from gaitwright.navigation.navigator import Navigator
 from gaitwright.numerics.geometry import GRAVITY, quaternion_of, upright_rotation
 from gaitwright.perception.known_ground import KnownGround
 from gaitwright.signals import Mission, Route, Sensed, SkillCall
@@ -51,7 +51,7 @@ def moments_of(course: Course, driver: Driver, rng: np.random.Generator) -> list
     sensed = body.sensed(0.0, None)
     navigator, perception, ground = course.navigator, course.perception, course.perception.ground
     scan = perception.look(ground, sensed)
-    route, travelled = navigator.set_out(course.mission, sensed, ground, scan)
+    route, travel = navigator.set_out(course.mission, sensed, ground, scan)
     now: SkillCall | None = None
     moments = []
     for k in range(LONGEST):
@@ -63,10 +63,10 @@ def moments_of(course: Course, driver: Driver, rng: np.random.Generator) -> list
             break
         before = body.x, body.y
         body.go(now, route)
-        travelled |= gone(navigator, before, (body.x, body.y))
+        travel = navigator.been(travel, *between(before, (body.x, body.y)))
         sensed = body.sensed(TICK * (k + 1), now)
         scan = perception.look(ground, sensed)
-        route, travelled = navigator.plan(route, sensed, ground, scan, travelled)
+        route, travel = navigator.plan(route, sensed, ground, scan, travel)
     return moments
 
 
@@ -78,11 +78,10 @@ def met(course: Course, route: Route, rng: np.random.Generator) -> Route:
     return replace(route, ahead=replace(route.ahead, obstacle=min(away, route.ahead.obstacle)))
 
 
-def gone(navigator: Navigator, start: tuple[float, float], end: tuple[float, float]) -> Travelled:
-    """The cells on the way between two places."""
+def between(start: tuple[float, float], end: tuple[float, float]) -> list[tuple[float, float]]:
+    """Places on the way from one to another."""
     shares = np.linspace(0.0, 1.0, 12).tolist()
-    way = [(start[0] + k * (end[0] - start[0]), start[1] + k * (end[1] - start[1])) for k in shares]
-    return frozenset(navigator.cell(point) for point in way)
+    return [(start[0] + k * (end[0] - start[0]), start[1] + k * (end[1] - start[1])) for k in shares]
 
 
 class Body:

@@ -13,7 +13,7 @@ from gaitwright.record.moment import call_at, route_at, sensed_at
 from gaitwright.record.recording import Recording
 from gaitwright.session import Session
 from gaitwright.signals import Route, Sensed, SkillCall
-from gaitwright.skills.foothold_guard import FootholdGuard
+from gaitwright.skills.commanded import guarded
 from gaitwright.skills.measured import measured
 from gaitwright.skills.rule_chooser import RuleChooser
 
@@ -57,7 +57,7 @@ class Running:
 
     def drive_by(self, rulebook: Rulebook) -> None:
         brain = self.session.brain
-        chooser = FootholdGuard(RuleChooser(brain.robot, rulebook), brain.robot)
+        chooser = guarded(RuleChooser(brain.robot, rulebook), brain.robot)
         self.session.brain = replace(brain, chooser=chooser)
         self.session.mind = self.session.mind._replace(chosen_at=-np.inf)  # chosen anew at once
 

@@ -34,12 +34,13 @@ def length(x, y):
 
 
 @kernel
-def search(roads, sources, ignored, goal, most, place, cells):
+def search(roads, sources, ignored, goal, turning, most, place, cells):
     """Length of the shortest path [m] and its points from a source to the goal, `NONE` or `FULL`.
 
     `sources`: rows x, y, cost of coming there [m]; the first is the robot's own place, where links keep what
-    room there is (`leaves`, which ignores what is nearer than `ignored`). Paths longer than `most` [m] are
-    not looked for. Where `cells` is not empty, all must lie in known ground.
+    room there is (`leaves`, which ignores what is nearer than `ignored`). `turning`: where the robot faces
+    [rad], and what a radian of turning into the path counts for [m]. Paths longer than `most` [m] are not
+    looked for. Where `cells` is not empty, all must lie in known ground.
     """
     states = len(roads.found)
     goal_state = states + len(sources)
@@ -56,7 +57,8 @@ def search(roads, sources, ignored, goal, most, place, cells):
         if f > most:
             break
         if u == v:
-            heap, links, count = set_out(roads, sources, goal, (v, f, closed[v]), best, heap, links, count)
+            source = (v, f, closed[v])
+            heap, links, count = set_out(roads, sources, goal, source, turning, best, heap, links, count)
             closed[v] = True
             continue
         if closed[v]:
@@ -66,6 +68,8 @@ def search(roads, sources, ignored, goal, most, place, cells):
         if not stands(roads, (u, v, states), (ax, ay, bx, by), ignored, place, cells):
             continue
         parent[v], best[v], closed[v] = u, best[u] + length(bx - ax, by - ay), True
+        if u >= states:
+            best[v] += turned(turning, bx - ax, by - ay)
         if v == goal_state:
             return best[v], trace(roads, sources, goal, parent)
         if roads.found[v, 0] < 0 and not find_links(roads, v):
@@ -158,7 +162,16 @@ def go_on(roads, goal, u, best, believes, heap, links, count, goal_state):
 
 
 @kernel
-def set_out(roads, sources, goal, source, best, heap, links, count):
+def turned(turning, x, y):
+    """What it counts for [m] to turn into a direction."""
+    facing, price = turning
+    if price == 0.0:
+        return 0.0
+    return price * abs((math.atan2(y, x) - facing + math.pi) % (2.0 * math.pi) - math.pi)
+
+
+@kernel
+def set_out(roads, sources, goal, source, turning, best, heap, links, count):
     """Queues the straight lines from a source to the goal and to all nodes, those that promise most first:
     the source is queued again for the others. `source`: its state, what it promised, whether it was here."""
     at, lean, states = roads.nodes.at, roads.nodes.lean, len(roads.found)
@@ -166,7 +179,8 @@ def set_out(roads, sources, goal, source, best, heap, links, count):
     high = PORTION * low + HAIR
     x, y = sources[u - states, 0], sources[u - states, 1]
     if not again:
-        heap, links, count = push(heap, links, count, low, u, states + len(sources))
+        straight = low + turned(turning, goal[0] - x, goal[1] - y)
+        heap, links, count = push(heap, links, count, straight, u, states + len(sources))
         low = -1.0
     more = False
     for k in range(len(at)):
@@ -174,7 +188,7 @@ def set_out(roads, sources, goal, source, best, heap, links, count):
         on = way_round(at[k], dx, dy, lean[k])
         if on < 0:
             continue
-        cost = best[u] + length(dx, dy)
+        cost = best[u] + length(dx, dy) + turned(turning, dx, dy)
         if cost < best[2 * k + on]:
             f = cost + length(goal[0] - at[k, 0], goal[1] - at[k, 1])
             if low < f <= high:

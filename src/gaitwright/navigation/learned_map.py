@@ -20,12 +20,14 @@ from gaitwright.navigation.planning import Point, Way, best_way
 from gaitwright.navigation.raster import Raster, blank, with_sight, with_way
 from gaitwright.navigation.roads import Bounds, RoadMap, fence
 from gaitwright.navigation.thesis_rule import thesis_way
-from gaitwright.navigation.tolerances import CHECK, DEEP, TOUCH
+from gaitwright.navigation.tolerances import CHECK, DEEP, LINK, TOUCH
 from gaitwright.navigation.unlearning import unlearned
 from gaitwright.signals import Sight
 
-Path = Sequence[Point] | Float[np.ndarray, "n 2"]
+Path = Sequence[Point] | Float[np.ndarray, "_ 2"]
 """Points of a path [m]."""
+Ring = Sequence[Point] | Float[np.ndarray, "_ 2"]
+"""Points of an outline [m]."""
 STRATEGIES = ("optimistic", "thesis")
 """How a way is chosen where the map is blank."""
 LARGEST = 100_000.0
@@ -76,7 +78,7 @@ class LearnedMap:
         return cls(bounds, radius, strategy, noise, rows_of(np.empty((0, 4)), True), blank(bounds))
 
     @classmethod
-    def of_polygons(cls, bounds: Bounds, radius: float, polygons: Sequence[Sequence[Point]]) -> "LearnedMap":
+    def of_polygons(cls, bounds: Bounds, radius: float, polygons: Sequence[Ring]) -> "LearnedMap":
         """A field that is known from the start; outlines (closed by themselves) may touch, overlap, cross
         themselves, lie in each other or have no area."""
         empty = cls.of(bounds, radius)
@@ -133,8 +135,9 @@ class LearnedMap:
         return replace(self, rows=rows, raster=raster, noise=noise, trips=trips)
 
     # --- asked ----------------------------------------------------------------------------------
-    def way(self, start: Point, goal: Point) -> Way | None:
-        """The way to take; `None`: there is none for a disc of radius r / cos 15° (said only if so).
+    def way(self, start: Point, goal: Point, facing: float | None = None) -> Way | None:
+        """The way to take by a robot that faces `facing` [rad], or does not say where; `None`: there is none
+        for a disc of radius r / cos 15° (said only if so).
 
         A start that is too near to something is left. A goal outside the field or nearer than r to something
         cannot be reached, unless the robot stands there. `None` is said only if there is none either without
@@ -142,28 +145,36 @@ class LearnedMap:
         """
         require_places(np.array([*start, *goal]))
         start, goal = (float(start[0]), float(start[1])), (float(goal[0]), float(goal[1]))
-        way = self.way_over(self.road_map, start, goal)
-        if way is None and (self.noise > 0.0 or (self.rows[:, KIND] == SUPPOSED).any()):
-            return self.way_over(self.sure_road_map, start, goal)
+        way = self.way_over(self.road_map, start, goal, facing)
+        if way is None and (self.noise > 0.0 or len(self.sure) < len(self.rows)):
+            return self.way_over(self.sure_road_map, start, goal, facing)
         return way
 
-    def way_over(self, road_map: RoadMap, start: Point, goal: Point) -> Way | None:
+    def way_over(self, road_map: RoadMap, start: Point, goal: Point, facing: float | None) -> Way | None:
         """The way to take over some roads, by the map's strategy."""
         if self.strategy == "thesis":
             return thesis_way(road_map, self.raster, self.trail, start, goal)
-        return best_way(road_map, self.raster, start, goal)
+        return best_way(road_map, self.raster, start, goal, facing)
 
     def is_cut(self, path: Path) -> bool:
         """Whether what is known for sure comes within r of a path [m], and nearer than to its beginning,
         where the robot stands (`way` may go through what is only supposed, and out of what is deep in it)."""
-        sure = self.pieces[self.rows[:, KIND] != SUPPOSED]
         room, deep = self.narrowest - CHECK, DEEP * self.radius
-        return is_path_cut(sure, path, room, deep) or is_path_cut(fence(self.bounds), path, room, deep)
+        return is_path_cut(self.sure, path, room, deep) or is_path_cut(fence(self.bounds), path, room, deep)
+
+    def is_touched(self, place: Point) -> bool:
+        """Whether something that is known for sure comes within r of a place [m]: no disc stands there."""
+        return bool(crossed(self.sure, np.array([place, place]), self.narrowest - LINK).any())
 
     @property
     def pieces(self) -> Float[np.ndarray, "n 4"]:
         """x0, y0, x1, y1 of what is known of obstacles' edges [m]."""
         return self.rows[:, :4]
+
+    @cached_property
+    def sure(self) -> Float[np.ndarray, "n 4"]:
+        """The pieces that are not only supposed [m]."""
+        return self.pieces[self.rows[:, KIND] != SUPPOSED]
 
     @property
     def corners(self) -> Bool[np.ndarray, "n 2"]:
@@ -183,7 +194,7 @@ class LearnedMap:
     @cached_property
     def sure_road_map(self) -> RoadMap:
         """The roads of a disc narrower by what the noise may have added, without what is only supposed."""
-        return RoadMap(self.bounds, self.narrowest, self.pieces[self.rows[:, KIND] != SUPPOSED])
+        return RoadMap(self.bounds, self.narrowest, self.sure)
 
 
 def require_places(*arrays: np.ndarray) -> None:

@@ -20,8 +20,8 @@ def sources(grid: PieceGrid, start: Point, radius: float, ignored: float) -> Flo
     """Places to set out from: x, y [m] and what it costs to come there [m]; the first is the start.
 
     There are others only where the start is too near to something, or too near to a corner for the polygon on
-    which paths turn around it: clear places aside, to which it comes without coming nearer to anything. What
-    is nearer than `ignored` [m] is not there.
+    which paths turn around it: clear places aside, to which it comes without coming nearer to anything, and
+    the one that is straight away from what is nearest. What is nearer than `ignored` [m] is not there.
     """
     return np.array(places(grid, *start, radius, ignored)).reshape(-1, 3)
 
@@ -32,6 +32,12 @@ def places(grid, x, y, radius, ignored):
     clear = (radius + NODE) / math.cos(HALF_STEP)
     if not is_close(grid, x, y, radius - LINK, clear - 1e-9):
         return found
+    ux, uy, own = away_from_nearest(grid, x, y)
+    step = radius + NODE + 1e-9 - own
+    ax, ay = x + step * ux, y + step * uy
+    is_clear = step > 0.0 and not is_close(grid, ax, ay, radius + NODE, clear)
+    if is_clear and leaves(grid, x, y, ax, ay, radius - LINK, ignored):
+        found.append((ax, ay, step))
     for k in range(DIRECTIONS):
         angle = 2.0 * math.pi * k / DIRECTIONS
         for step in STEPS:
@@ -55,6 +61,31 @@ def is_close(grid, x, y, to_side, to_end):
         if min(near0, near1) < to_end:
             return True
     return False
+
+
+@kernel
+def away_from_nearest(grid, x, y):
+    """Unit vector to a place from the nearest piece of its cell, and how far that is [m]."""
+    k = cell_of(grid.place, grid.size, x, y)
+    ux, uy, own = 0.0, 0.0, math.inf
+    for n in range(grid.begin[k], grid.begin[k + 1]):
+        piece = grid.pieces[grid.items[n]]
+        px, py = nearest_on(piece, x, y)
+        apart = math.hypot(x - px, y - py)
+        if apart < own:
+            own = apart
+            ux, uy = ((x - px) / apart, (y - py) / apart) if apart > 0.0 else (0.0, 0.0)
+    return ux, uy, own
+
+
+@kernel
+def nearest_on(piece, x, y):
+    """The point of a piece that is nearest to a place."""
+    dx, dy = piece[2] - piece[0], piece[3] - piece[1]
+    length2 = dx * dx + dy * dy
+    ex, ey = x - piece[0], y - piece[1]
+    t = 0.0 if length2 == 0.0 else min(max((ex * dx + ey * dy) / length2, 0.0), 1.0)
+    return piece[0] + t * dx, piece[1] + t * dy
 
 
 @kernel

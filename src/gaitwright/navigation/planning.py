@@ -13,6 +13,9 @@ from gaitwright.navigation.roads import RoadMap
 from gaitwright.navigation.tolerances import DEEP, LINK, WORTH
 from gaitwright.numerics.compiled import kernel
 
+TURN, TURNING = 3.0, 0.03
+"""Turning by a radian is worth as many radii of way as are walked meanwhile (0.5 m/s, 1 rad/s, a Go2), and
+turning round at most this share of the straight line to the goal."""
 ANYWHERE = np.zeros((0, 0), dtype=bool)
 """For a search that is not kept to known ground."""
 
@@ -31,11 +34,15 @@ class Way(NamedTuple):
     """Length of the shortest way if all that is unknown were free [m]: none is shorter."""
 
 
-def best_way(road_map: RoadMap, raster: Raster, start: Point, goal: Point) -> Way | None:
+def best_way(
+    road_map: RoadMap, raster: Raster, start: Point, goal: Point, facing: float | None = None
+) -> Way | None:
     """The shortest way if all that is unknown were free, or one over known ground that is nearly as short.
 
-    A start outside the field is left towards it. There is no way to a goal that a disc cannot stand on,
-    unless it stands there already.
+    Of ways through the unknown that are about as short, one that needs less turning is taken by a robot that
+    faces `facing` [rad]: else it may turn from side to side as it sees more of a wall before it. A start
+    outside the field is left towards it. There is no way to a goal that a disc cannot stand on, unless it
+    stands there already.
     """
     if start == goal:
         return Way((goal,), 0.0, True, 0.0)
@@ -53,7 +60,12 @@ def best_way(road_map: RoadMap, raster: Raster, start: Point, goal: Point) -> Wa
     longer, known = shortest(road_map, inside, goal, WORTH * length, raster, raster.cells)
     if longer != NONE:
         return Way((*step, *points(known)), into + longer, True, into + length)
-    return Way((*step, *points(path)), into + length, False, into + length)
+    explored = length
+    if facing is not None:
+        price = min(TURN * road_map.radius, TURNING * math.dist(inside, goal) / math.pi)
+        _, path = shortest(road_map, inside, goal, math.inf, raster, ANYWHERE, (facing, price))
+        explored = float(np.hypot(*np.diff(path, axis=0).T).sum())
+    return Way((*step, *points(path)), into + explored, False, into + length)
 
 
 def is_standable(road_map: RoadMap, point: Point) -> bool:
@@ -65,7 +77,13 @@ def is_standable(road_map: RoadMap, point: Point) -> bool:
 
 
 def shortest(
-    road_map: RoadMap, start: Point, goal: Point, most: float, raster: Raster, cells: np.ndarray
+    road_map: RoadMap,
+    start: Point,
+    goal: Point,
+    most: float,
+    raster: Raster,
+    cells: np.ndarray,
+    turning: tuple[float, float] = (0.0, 0.0),
 ) -> tuple[float, np.ndarray]:
     """Length [m] and points of the shortest path of at most `most` [m], or `NONE`.
 
@@ -76,10 +94,10 @@ def shortest(
     is_deep = clearance(grid, *start, deep) < deep
     for ignored in (0.0, deep) if is_deep else (0.0,):
         begin = sources(grid, start, road_map.radius, ignored)
-        length, path = search(road_map.roads, begin, ignored, goal, most, raster.place, cells)
+        length, path = search(road_map.roads, begin, ignored, goal, turning, most, raster.place, cells)
         while length == FULL:
             road_map.widen()
-            length, path = search(road_map.roads, begin, ignored, goal, most, raster.place, cells)
+            length, path = search(road_map.roads, begin, ignored, goal, turning, most, raster.place, cells)
         if length != NONE:
             break
     if len(path) and tuple(path[0]) != start:  # it set out from a place aside

@@ -10,7 +10,7 @@ def hull(points: Points) -> Float[np.ndarray, "corners 2"]:
     """Corners of the convex hull, anticlockwise (Andrew's monotone chain)."""
     ordered = sorted({(float(x), float(y)) for x, y in points})
     if len(ordered) < 3:
-        return np.array(ordered)
+        return np.array(ordered).reshape(-1, 2)
     return np.array(half_hull(ordered)[:-1] + half_hull(ordered[::-1])[:-1])
 
 

@@ -16,7 +16,7 @@ from gaitwright.model import kinematics
 from gaitwright.model.camera import Camera
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, rotation
-from gaitwright.perception.fusing import HEIGHT, HIGH, LOW, SEEN, VARIANCE, feel, fuse
+from gaitwright.perception.fusing import HEIGHT, HIGH, LOW, MOST, PROOF, SEEN, VARIANCE, feel, fuse
 from gaitwright.signals import DepthFrame, Sensed
 
 CELLS = 288
@@ -31,8 +31,10 @@ LOADED = 0.1
 """A foot that carries this share of the weight rests on the ground; less is a touch."""
 ASIDE = 1.2
 """What moves reaches so far beyond the edge that is seen of it, in body heights."""
-UNKNOWN = (np.nan, np.inf, np.inf, -np.inf, -np.inf)
+UNKNOWN = (np.nan, np.inf, np.inf, -np.inf, -np.inf, 0.0)
 """A cell of which nothing is known."""
+PROVEN = 3.0
+"""Feet count on ground that a camera with noise has hit so many times more than it looked through it."""
 AROUND = 1.0
 """The ground that feet stand on at the start is supposed to go on so far beyond them, in body heights: up to
 what the camera sees first."""
@@ -46,18 +48,22 @@ class ElevationMap:
     """Of the robot's body [m]: in it is said what is sudden, narrow or near."""
     first: tuple[int, int]
     """Row and column of the window's lowest cell in the world's lattice, whose cell 0, 0 is around 0, 0."""
-    cells: Float32[np.ndarray, "n n 5"]
-    """Height [m], variance [m²], lowest and highest seen [m], time [s]; row r at r mod n (`fusing`)."""
+    cells: Float32[np.ndarray, "n n 6"]
+    """Height [m], variance [m²], lowest and highest seen [m], time [s], proof; row r at r mod n."""
     keep: float = math.inf
     """What was not seen or felt for longer is forgotten [s]."""
+    proof: float = -math.inf
+    """Feet count on a cell that was hit by so many rays more than went through it: with noise some hit cells
+    that have no ground."""
 
     @classmethod
-    def for_robot(cls, robot: Robot, keep: float = math.inf) -> "ElevationMap":
-        """Nothing is known yet; window and cells as the robot's size asks."""
-        cells = np.empty((CELLS, CELLS, 5), np.float32)
+    def for_robot(cls, robot: Robot, keep: float = math.inf, noise: float = 0.0) -> "ElevationMap":
+        """Nothing is known yet; window and cells as the robot's size asks. `noise`: of a camera's ranges
+        [m]."""
+        cells = np.empty((CELLS, CELLS, 6), np.float32)
         cells[:] = UNKNOWN
         first = (-CELLS // 2, -CELLS // 2)
-        return cls(robot.height, first, cells, keep)
+        return cls(robot.height, first, cells, keep, PROVEN if noise else -math.inf)
 
     @property
     def spacing(self) -> float:
@@ -188,13 +194,17 @@ def without(before: ElevationMap, edge: Float[np.ndarray, "n 2"], step: float, t
 
 
 def standing(
-    robot: Robot, sensed: Sensed, feet: Float[np.ndarray, "legs 3"], keep: float = math.inf
+    robot: Robot,
+    sensed: Sensed,
+    feet: Float[np.ndarray, "legs 3"],
+    keep: float = math.inf,
+    noise: float = 0.0,
 ) -> ElevationMap:
     """The map at the start: the plane through the feet's lowest points, world [m], under and around them.
 
     Nobody saw it, so it is only supposed; what feet rest on was felt.
     """
-    empty = ElevationMap.for_robot(robot, keep)
+    empty = ElevationMap.for_robot(robot, keep, noise)
     first, cells = empty.around(sensed.position_w), empty.cells.copy()
     x, y = replace(empty, first=first).places()
     slopes = np.linalg.lstsq(np.column_stack([feet[:, :2], np.ones(len(feet))]), feet[:, 2], rcond=None)[0]
@@ -206,5 +216,5 @@ def standing(
     for of in (HEIGHT, LOW, HIGH):
         cells[(*under, of)] = plane[np.ix_(rows, columns)]
     cells[(*under, VARIANCE)] = (SUPPOSED * robot.height) ** 2
-    cells[(*under, SEEN)] = sensed.time
+    cells[(*under, SEEN)], cells[(*under, PROOF)] = sensed.time, MOST
     return felt(replace(empty, first=first, cells=cells), feet, float(robot.foot_radius.max()), sensed.time)

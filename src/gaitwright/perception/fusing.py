@@ -10,8 +10,10 @@ import math
 from gaitwright.numerics.compiled import kernel
 from gaitwright.numerics.geometry import times, vec
 
-HEIGHT, VARIANCE, LOW, HIGH, SEEN = 0, 1, 2, 3, 4
-"""Places in a cell. Unknown: NaN, inf, inf, -inf, -inf."""
+HEIGHT, VARIANCE, LOW, HIGH, SEEN, PROOF = 0, 1, 2, 3, 4, 5
+"""Places in a cell. Unknown: NaN, inf, inf, -inf, -inf; PROOF: how many more hits than looks through it."""
+LEAST, MOST = -3.0, 6.0
+"""Proof is not counted beyond these, so that a cell can still be changed [-]."""
 FLOOR = 0.1
 """Standard deviation of a height from how rays fall into a cell, in cells: no camera is better than that."""
 GATE = 3.0
@@ -49,6 +51,13 @@ def forget(cell):
 
 
 @kernel
+def empty(cell):
+    """Makes a cell one that nobody has ever looked at."""
+    forget(cell)
+    cell[PROOF] = 0.0
+
+
+@kernel
 def roll(cells, old, new):
     """Forgets rows and columns of a window at `new` (row, column) that were not in it at `old`."""
     n = cells.shape[0]
@@ -56,7 +65,7 @@ def roll(cells, old, new):
         kept = old[0] <= row < old[0] + n
         for column in range(new[1], new[1] + n):
             if not (kept and old[1] <= column < old[1] + n):
-                forget(cells[slot(row, n), slot(column, n)])
+                empty(cells[slot(row, n), slot(column, n)])
 
 
 @kernel
@@ -69,6 +78,7 @@ def look_variance(spread, fall, spacing):
 def update(cell, z, variance, spacing, time):
     """A hit at height z on a cell."""
     cell[SEEN] = time
+    cell[PROOF] = min(cell[PROOF] + 1.0, MOST)
     if not cell[VARIANCE] < math.inf:
         cell[HEIGHT] = cell[LOW] = cell[HIGH] = z
         cell[VARIANCE] = variance
@@ -88,6 +98,7 @@ def update(cell, z, variance, spacing, time):
 @kernel
 def weaken(cell, variance, spacing):
     """A ray went through a cell: it is less sure, and at last only its lower surface is kept, or nothing."""
+    cell[PROOF] = max(cell[PROOF] - 1.0, LEAST)
     cell[VARIANCE] *= WORSE
     if cell[VARIANCE] <= LOST * variance:
         return
@@ -115,7 +126,7 @@ def look_through(cells, first, spacing, eye, R_wc, rays, ranges, lens, noise, no
             if not cells[i, j, VARIANCE] < math.inf:
                 continue
             if now - cells[i, j, SEEN] > keep:
-                forget(cells[i, j])
+                empty(cells[i, j])
                 continue
             dx = (first[1] + v) * spacing - eye[0]
             lower = 2.0 * BENEATH * spacing + high / rows * max(abs(dx), abs(dy))
@@ -193,4 +204,4 @@ def feel(cells, first, spacing, places, radius, variance, now):
                         not agrees and not (known and abs(cell[HEIGHT] - z) <= apart)
                     ):
                         cell[HEIGHT] = cell[LOW] = cell[HIGH] = z
-                        cell[VARIANCE], cell[SEEN] = variance, now
+                        cell[VARIANCE], cell[SEEN], cell[PROOF] = variance, now, MOST

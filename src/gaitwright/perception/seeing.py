@@ -101,7 +101,8 @@ class SeeingGround:
 
     def before(self, sensed: Sensed) -> ElevationMap:
         """The map of a robot that has not looked yet: it stands."""
-        return standing(self.robot, sensed, lowest_points(self.robot, sensed))
+        noise = self.camera.noise + self.camera.noise_growth * self.robot.height**2
+        return standing(self.robot, sensed, lowest_points(self.robot, sensed), noise=noise)
 
     def looked(self, seen: ElevationMap, sensed: Sensed, frame: DepthFrame) -> tuple[ElevationMap, Sight]:
         """The map after a frame and what the feet feel meanwhile, and the sight of the frame."""

@@ -1,6 +1,7 @@
 """ElevationMap → what feet and eyes read: an `ElevationGrid`, and an `Elevation`.
 
-What is unknown must do no harm. No foot stands there: to feet it is an edge. Its height is that of the
+What is unknown must do no harm. No foot stands there: to feet it is an edge, and where more of it lies
+together than rays leave out, so is the rim around it: it may be that of a hole. Its height is that of the
 nearest known place, so that a swing over it lifts the foot no more than its surroundings ask, a shank finds
 room, and nothing looks like a step or a hole that nobody saw. Eyes are told NaN.
 """
@@ -13,15 +14,17 @@ import numpy as np
 from jaxtyping import Float, Float32
 
 from gaitwright.ground.elevation import MARGIN
+from gaitwright.ground.footholds import RIM
 from gaitwright.ground.terrain import Number
 from gaitwright.numerics.compiled import kernel
 from gaitwright.perception.elevation_map import ElevationMap
-from gaitwright.perception.fusing import HEIGHT, HIGH, LOW, VARIANCE, slot
+from gaitwright.perception.fusing import HEIGHT, HIGH, LOW, PROOF, VARIANCE, slot
 from gaitwright.signals import ElevationGrid
 
 BRIDGED = 2
-"""So many unknown cells between two that lie level with each other are ground like them: rays leave such
-gaps, and they are narrower than a foot."""
+"""So many unknown cells between two that lie level with each other, along both rows and columns, are ground
+like them, and a single one along either: rays leave such gaps, and they are narrower than a foot. In the
+corner of a hole there are some along one of them alone."""
 
 VAGUE = 2.0
 """A break must be more than an edge by so many standard deviations of what was seen, or be twice one [-]."""
@@ -32,7 +35,7 @@ FAR = 30_000
 def footholds_of(seen: ElevationMap) -> ElevationGrid:
     """The ground for feet: nodes are the middles of the map's cells."""
     heights, edges, known = (np.empty((seen.n, seen.n)) for _ in range(3))
-    write_grid(seen.cells, seen.first, seen.edge, heights, edges, known)
+    write_grid(seen.cells, seen.first, seen.edge, seen.proof, heights, edges, known)
     row, column = seen.first
     return ElevationGrid(np.array([column * seen.spacing, row * seen.spacing, seen.spacing]), heights, edges)
 
@@ -64,19 +67,24 @@ class SeenElevation:
 
 # --- kernels ---------------------------------------------------------------------------------------
 @kernel
-def write_grid(cells, first, edge, heights, edges, known):
-    """Writes heights [m], edges and what is known (0, 1) of a map's window, in the order of the world."""
+def write_grid(cells, first, edge, proof, heights, edges, known):
+    """Writes heights [m], edges and what is known (0, 1) of a map's window, in the order of the world.
+
+    Ground is what has so many more hits than looks through as `proof` says.
+    """
     n = cells.shape[0]
     for u in range(n):
         i, before = slot(first[0] + u, n), slot(first[1], n)
         for v in range(n):
             j = before + v if before + v < n else before + v - n
-            known[u, v] = 1.0 if cells[i, j, VARIANCE] < math.inf else 0.0
+            known[u, v] = 1.0 if cells[i, j, VARIANCE] < math.inf and cells[i, j, PROOF] >= proof else 0.0
             split = cells[i, j, HIGH] - cells[i, j, LOW] > edge
             heights[u, v] = cells[i, j, HIGH] if split else cells[i, j, HEIGHT]
             edges[u, v] = 1.0 if split else 0.0
-    somewhere = fill(heights, known, edge)
+    hidden = np.zeros((n, n), np.uint8)
+    somewhere = fill(heights, known, edge, proof > -math.inf, hidden)
     mark_breaks(heights, known, edge, edges, cells, first)
+    mark_rims(hidden, edges)
     for u in range(n):
         for v in range(n):
             edges[u, v] = max(edges[u, v], 1.0 - known[u, v])
@@ -84,11 +92,11 @@ def write_grid(cells, first, edge, heights, edges, known):
 
 
 @kernel
-def fill(heights, known, edge):
+def fill(heights, known, edge, doubts, hidden):
     """Gives unknown cells the height of the nearest known one in their row or column; bridges small gaps.
 
     Those with nothing known in either stay NaN; a height that is known is given for them. Bridged ones become
-    known.
+    known; `hidden` are those in gaps wider than that along both, or, to one who `doubts`, all others.
     """
     n, last = heights.shape[0], 0.0
     west, south = np.empty((n, n), np.int16), np.empty((n, n), np.int16)
@@ -107,6 +115,7 @@ def fill(heights, known, edge):
             north[v] += 1
             east += 1
             w, s = west[u, v], south[u, v]
+            hidden[u, v] = doubts or min(w + east, s + north[v]) > BRIDGED + 1
             near = min(w, east, s, north[v])
             if near >= FAR:
                 heights[u, v] = math.nan
@@ -120,9 +129,25 @@ def fill(heights, known, edge):
                 z_a = heights[u, v - a] if a < FAR else z_a
                 z_b = heights[u, v + b] if b < FAR else z_b
             heights[u, v] = z_a if a < b else z_b
-            if a + b <= BRIDGED + 1 and abs(z_a - z_b) <= edge:
-                heights[u, v], known[u, v] = (b * z_a + a * z_b) / (a + b), 1.0
+            narrow = a + b <= 2 or max(w + east, s + north[v]) <= BRIDGED + 1
+            if narrow and abs(z_a - z_b) <= edge:
+                heights[u, v], known[u, v], hidden[u, v] = (b * z_a + a * z_b) / (a + b), 1.0, 0
     return last
+
+
+@kernel
+def mark_rims(hidden, edges):
+    """Marks the cells up to `MARGIN` away from those that are `hidden`."""
+    n = hidden.shape[0]
+    for u in range(MARGIN, n - MARGIN):
+        for v in range(MARGIN, n - MARGIN):
+            if not hidden[u, v] or (
+                hidden[u, v - 1] and hidden[u, v + 1] and hidden[u - 1, v] and hidden[u + 1, v]
+            ):
+                continue
+            for du in range(-MARGIN, MARGIN + 1):
+                for dv in range(abs(du) - MARGIN, MARGIN - abs(du) + 1):
+                    edges[u + du, v + dv] = max(edges[u + du, v + dv], RIM)
 
 
 @kernel

@@ -20,10 +20,7 @@ def trip_picture(recording: Recording, scene: Scene, path: str | Path) -> Path:
     across = 3 if r.robot.n % 4 else 4
     rows = r.robot.n // across
     sheet = Sheet(height=10.3 + 2.55 * rows)
-    sheet.figure.text(
-        LEFT / WIDTH, 1 - 0.42 / sheet.height, headline(r), fontsize=19, fontweight="bold", color=INK
-    )
-    sheet.figure.text(LEFT / WIDTH, 1 - 0.75 / sheet.height, summary(r), fontsize=12, color=INK)
+    sheet.head(headline(r), summary(r))
     draw_map(sheet.axes(LEFT, 0.95, *MAP), r, scene)
     draw_speed(sheet.axes(LEFT, 7.35, 7.1, 1.9), r)
     draw_attitude(sheet.axes(LEFT + MAP[0] - 7.1, 7.35, 7.1, 1.9), r)
@@ -44,6 +41,12 @@ class Sheet:
         self.height = height
         self.figure = Figure(figsize=(WIDTH, height), dpi=DPI)
         FigureCanvasAgg(self.figure)
+
+    def head(self, title: str, line: str) -> None:
+        """Writes a title, and a line below it."""
+        for below, text, size, weight in ((0.42, title, 19, "bold"), (0.75, line, 12, "normal")):
+            at = 1 - below / self.height
+            self.figure.text(LEFT / WIDTH, at, text, fontsize=size, fontweight=weight, color=INK)
 
     def axes(self, left: float, top: float, width: float, height: float) -> Axes:
         bottom = self.height - top - height

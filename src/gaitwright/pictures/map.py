@@ -13,6 +13,7 @@ from matplotlib.patches import Patch, Polygon, Rectangle
 from gaitwright.ground.holes import filled
 from gaitwright.ground.scene import Scene
 from gaitwright.model.kinematics import feet
+from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import rotation
 from gaitwright.pictures.ground import HIGH, LOW_EDGE, PIT, draw_things
 from gaitwright.pictures.moving import LOOK, draw_moving
@@ -24,6 +25,8 @@ from gaitwright.record.rows import parts
 
 BODIES = 300
 """Outlines of the body at most."""
+NAMED = 11
+"""Things in a line of the legend at most."""
 AT_ONCE = 8192
 """Ticks that are searched for footfalls at once."""
 
@@ -54,16 +57,23 @@ def draw_map(ax: Axes, r: Recording, scene: Scene) -> None:
         Line2D([], [], marker="*" if r.arrived else "X", markersize=14, label=done, **marker),
         Line2D([], [], marker=".", color="none", markerfacecolor=INK, markeredgewidth=0, label="footfalls"),
     ]
-    if scene.solids:
+    around = scene.obstacles(r.robot.step_limit)
+    if any(solid not in around for solid in scene.solids):
         handles.append(Patch(facecolor="#d9c9a8", edgecolor=LOW_EDGE, label="low: stepped on"))
     if scene.holes:
         handles.append(Patch(facecolor=PIT, label="hole"))
     if scene.movers:
         handles.append(Patch(**LOOK, label="moves"))
-    if scene.obstacles(r.robot.step_limit):
+    if around:
         handles.append(Patch(**HIGH, label="high: walked around"))
+    rows = -(-len(handles) // NAMED)
     ax.legend(
-        handles=handles, loc="upper left", ncols=len(handles), frameon=True, framealpha=0.92, edgecolor="none"
+        handles=handles,
+        loc="upper left",
+        ncols=-(-len(handles) // rows),
+        frameon=True,
+        framealpha=0.92,
+        edgecolor="none",
     )
 
 
@@ -105,8 +115,7 @@ def draw_footprints(ax: Axes, r: Recording) -> None:
 
 def draw_bodies(ax: Axes, r: Recording, way: np.ndarray) -> None:
     """The outline of the body at even distances, for its size and heading; of a long way some of them."""
-    (cx, cy, _), (hx, hy, _) = r.robot.trunk
-    corners = np.array([[cx + sx * hx, cy + sy * hy] for sx, sy in ((1, 1), (-1, 1), (-1, -1), (1, -1))])
+    corners = trunk_corners(r.robot)
     yaw = heading_over_time(shown(r.channel("orientation_wb")))
     gone = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(way, axis=0), axis=1))])
     apart = max(2.5 * r.robot.body_length, gone[-1] / BODIES)
@@ -114,6 +123,12 @@ def draw_bodies(ax: Axes, r: Recording, way: np.ndarray) -> None:
         c, s = np.cos(yaw[tick]), np.sin(yaw[tick])
         outline = corners @ np.array([[c, s], [-s, c]]) + way[tick]
         ax.add_patch(Polygon(outline, facecolor=INK, edgecolor=INK, alpha=0.2, linewidth=0, zorder=3.5))
+
+
+def trunk_corners(robot: Robot) -> np.ndarray:
+    """The outline of a robot's trunk seen from above, base axes x, y `(4, 2)` [m]."""
+    (cx, cy, _), (hx, hy, _) = robot.trunk
+    return np.array([[cx + sx * hx, cy + sy * hy] for sx, sy in ((1, 1), (-1, 1), (-1, -1), (1, -1))])
 
 
 def footprints(r: Recording) -> Iterator[tuple[float, float]]:

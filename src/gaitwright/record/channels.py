@@ -55,6 +55,11 @@ def widths(legs: int) -> dict[str, int]:
     }
 
 
+def shapes(legs: int) -> dict[str, tuple[int, ...]]:
+    """The channels of a recording and the shape of each in a row of its file."""
+    return {name: (width,) if width > 1 else () for name, width in widths(legs).items()}
+
+
 def columns_of(legs: int) -> dict[str, slice]:
     """The columns of a row that each channel has."""
     channels = widths(legs)

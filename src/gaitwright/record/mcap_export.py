@@ -4,7 +4,7 @@ Topics: `/joint_states` (sensor_msgs/JointState: angles, rates, torques), `/tf` 
 base → the links of every leg), `/tf_static` (their feet), `/robot_description` (std_msgs/String: a URDF with
 these links and joints), `/gaitwright/scene` (foxglove.SceneUpdate: ground, boxes, the way, what moves),
 `/gaitwright/changes` (JSON: skill and driver, whenever one changes), `/gaitwright/scan` (JSON: the ground
-ahead, whenever it looks different). Needs the extra `record`.
+ahead, whenever it looks different), and those of `mcap_previews`. Needs the extra `record`.
 """
 
 import json
@@ -25,6 +25,7 @@ from gaitwright.model.urdf import Names, write_urdf
 from gaitwright.numerics.geometry import quaternion_of
 from gaitwright.plant.mujoco.world import JOINTS
 from gaitwright.record.channels import SCAN
+from gaitwright.record.mcap_previews import write_previews
 from gaitwright.record.metrics import stretches
 from gaitwright.record.recording import Recording
 from gaitwright.record.rows import parts
@@ -101,9 +102,11 @@ def export_mcap(recording: Recording, path: str | Path, scene: Scene | None = No
     facts |= {"stopped_because": recording.stopped_because}
     with fitting(path), whole(path) as draft, draft.open("wb") as file, Writer(file) as writer:
         write_description(writer, sound)
-        facts |= write_scene(writer, sound, scene or scene_of(recording))
+        ground = scene or scene_of(recording)
+        facts |= write_scene(writer, sound, ground)
         write_changes(writer, sound)
         write_scans(writer, sound)
+        write_previews(writer, sound, ground)
         write_states(writer, sound)
         writer.add_metadata("gaitwright", facts)
     return path

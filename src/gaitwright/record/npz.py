@@ -1,5 +1,6 @@
 """Channels ↔ `.npz`: as numpy writes and reads it, but a part at a time, so that length costs no memory."""
 
+import math
 import os
 import struct
 import tokenize
@@ -16,7 +17,7 @@ from numpy.lib import format as npy
 
 from gaitwright.errors import BadFile, short
 from gaitwright.files import fitting, opened_file, whole
-from gaitwright.record.rows import BLOCK, Series, parts
+from gaitwright.record.rows import BLOCK, PART, Series, parts
 
 HEADER = "header"
 MAX_BYTES = 4_000_000_000
@@ -26,6 +27,8 @@ MOST_PACKED, PLENTY = 100, 50_000_000
 MAX_HEADER = 1_000_000
 MAX_HEAD = 10_000
 """Letters in which an array says what it is."""
+WIDE = 16
+"""Numbers in a row up to which rows are written `PART` at a time; of wider ones fewer."""
 MAX_TICKS = 10_000_000
 """More than a simulated hour at any step of ours."""
 BROKEN = (
@@ -59,9 +62,10 @@ def write_array(archive: zipfile.ZipFile, name: str, series: Series) -> None:
     none: np.ndarray = series[0:0]
     shape = (len(series), *none.shape[1:])
     about = {"descr": npy.dtype_to_descr(none.dtype), "fortran_order": False, "shape": shape}
+    at_once = PART // max(1, math.prod(none.shape[1:]) // WIDE)
     with archive.open(f"{name}.npy", "w", force_zip64=True) as file:
         npy.write_array_header_1_0(file, about)
-        for part in parts(len(series)):
+        for part in parts(len(series), max(1, at_once)):
             file.write(series[part].tobytes())
 
 
@@ -97,40 +101,47 @@ def member(archive: zipfile.ZipFile, name: str) -> IO[bytes] | zipfile.ZipExtFil
 def read_header(archive: zipfile.ZipFile) -> bytes:
     """The JSON that is kept beside the channels. Raises `ValueError` where it is none, or too long."""
     with member(archive, HEADER) as file:
-        length = length_of(file, HEADER, 1, np.uint8)
+        length = length_of(file, HEADER, (), np.uint8)
         if length > MAX_HEADER:
             raise ValueError(f"its header has {length} bytes; at most {MAX_HEADER} are read")
         return file.read(length)
 
 
+def holds(archive: zipfile.ZipFile, name: str) -> bool:
+    """Whether an archive has an array of that name."""
+    return f"{name}.npy" in archive.namelist()
+
+
 def read_blocks(
-    archive: zipfile.ZipFile, widths: Mapping[str, int], optional: tuple[str, ...]
+    archive: zipfile.ZipFile, shapes: Mapping[str, tuple[int, ...]], optional: tuple[str, ...] = ()
 ) -> Iterator[np.ndarray]:
-    """All rows `(rows, width)`, some at a time; NaN for optional channels that are not there."""
-    held = {name.removesuffix(".npy") for name in archive.namelist()}
-    wanted = [name for name in widths if name in held or name not in optional]
+    """All rows `(rows, width)`, some at a time, of channels that have such a shape in each row; NaN for
+    optional ones that are not there."""
+    wanted = [name for name in shapes if name not in optional or holds(archive, name)]
     files = {name: member(archive, name) for name in wanted}
-    lengths = {length_of(file, name, widths[name]) for name, file in files.items()}
+    lengths = {length_of(file, name, shapes[name]) for name, file in files.items()}
     if len(lengths) > 1:
         raise ValueError("its channels differ in length")
     if not 0 < (length := max(lengths)) <= MAX_TICKS:
         raise ValueError(f"it has {length} ticks; expected are 1 to {MAX_TICKS}")
     for part in parts(length, BLOCK):
-        shapes = {name: (part.stop - part.start, width) for name, width in widths.items()}
+        sizes = {name: (part.stop - part.start, math.prod(shape)) for name, shape in shapes.items()}
         columns = [
-            numbers(files[name], shape) if name in files else np.full(shape, np.nan)
-            for name, shape in shapes.items()
+            numbers(files[name], size) if name in files else np.full(size, np.nan)
+            for name, size in sizes.items()
         ]
         yield np.concatenate(columns, axis=1)
 
 
-def length_of(file: IO[bytes] | zipfile.ZipExtFile, name: str, width: int, wanted: type = np.float64) -> int:
-    """How many rows of float64 a member has, by its head. Raises `ValueError` where it is not as wide."""
+def length_of(
+    file: IO[bytes] | zipfile.ZipExtFile, name: str, row: tuple[int, ...], wanted: type = np.float64
+) -> int:
+    """How many rows of float64 a member has, by its head. Raises `ValueError` for others than asked for."""
     if npy.read_magic(file) != (1, 0):
         raise ValueError(f"{name} is an array of another version of numpy's format")
     shape, by_column, kind = npy.read_array_header_1_0(file, max_header_size=MAX_HEAD)
-    if by_column or kind != wanted or shape != shape[:1] + (() if width == 1 else (width,)) or not shape:
-        expected = f"{width} of {np.dtype(wanted)} a tick"
+    if by_column or kind != wanted or not shape or shape[1:] != row:
+        expected = f"{' × '.join(map(str, row)) or 1} of {np.dtype(wanted)} a tick"
         raise ValueError(f"channel {name} is {shape} of {kind}; expected is {expected}")
     return shape[0]
 

@@ -11,15 +11,16 @@ from jaxtyping import Float
 from gaitwright.errors import NoRoom
 from gaitwright.ground.moving import Mover
 from gaitwright.ground.moving_entries import entry_of
-from gaitwright.locomotion import Lap
+from gaitwright.locomotion import Lap, Mind
 from gaitwright.model.robot import Robot, lists_of
 from gaitwright.numerics.geometry import GRAVITY
 from gaitwright.perception.fault_words import Fault
 from gaitwright.record import metrics as figures
-from gaitwright.record.channels import SITUATION, STATE, Held, Packer, columns_of, widths
+from gaitwright.record.channels import SITUATION, STATE, Held, Packer, columns_of, shapes, widths
 from gaitwright.record.checked import NAMED, check_rows, header_of, sound_rows
 from gaitwright.record.metrics import Report
 from gaitwright.record.npz import opened, read_blocks, read_header, write_npz
+from gaitwright.record.previews import Previewer, read_previews, series_of
 from gaitwright.record.rows import BLOCK, Lazy, Table, Writer, filled, first_rows, parts
 
 INTERRUPTED = "interrupted"
@@ -54,6 +55,8 @@ class Recording:
     """Ticks of the trip, where the robot was let down after it; `None`: all of them."""
     movers: tuple[Mover, ...] = ()
     """What moved, appeared or vanished in the scene that the run began in: how, and when."""
+    previews: Float[np.ndarray, "moments numbers"] | Table | None = None
+    """What the terrain scanner held some times a second (`record.previews`); `None`: nobody asked for it."""
 
     def __len__(self) -> int:
         """Number of ticks."""
@@ -160,6 +163,8 @@ class Recording:
     def save(self, path: str | Path) -> Path:
         """Writes the recording as one `.npz` (arrays and a JSON header, no pickle), whole or not at all."""
         channels = {name: self.channel(name) for name in widths(self.robot.n)}
+        if self.previews is not None:
+            channels |= series_of(self.previews, self.robot.n)
         write_npz(Path(path), json.dumps(self.header()).encode(), channels)
         return Path(path)
 
@@ -186,16 +191,22 @@ class Recorder:
         self.movers = movers
         self.packer = Packer(robot.n)
         self.writer = Writer(sum(widths(robot.n).values()))
+        self.previewer = Previewer(robot)
         self.last: Lap | None = None
         self.laps = 0
         self.trip: int | None = None
         self.no_room: str | None = None
 
-    def add(self, lap: Lap) -> None:
-        """Takes one lap. Raises `NoRoom` where the disk is full: the trip has to end, and nothing is lost."""
+    def add(self, lap: Lap, mind: Mind | None = None) -> None:
+        """Takes one lap, and what the terrain scanner holds after it where the mind that it left is told.
+
+        Raises `NoRoom` where the disk is full: the trip has to end, and nothing is lost.
+        """
         self.last, self.laps = lap, self.laps + 1
         try:
             self.writer.add(self.packer.row(lap))
+            if mind is not None:
+                self.previewer.add(lap, mind)
         except NoRoom as error:
             self.no_room = str(error)
             raise
@@ -222,6 +233,7 @@ class Recorder:
             memories=tuple(self.packer.memories),
             trip=self.trip if self.trip != self.laps else None,
             movers=self.movers,
+            previews=self.previewer.rows(),
         )
 
 
@@ -231,13 +243,13 @@ def load(path: str | Path) -> Recording:
     sound = False
     with opened(Path(path)) as archive:
         robot, own = header_of(read_header(archive))
-        channels = widths(robot.n)
         known = {name: len(own[names]) for name, names in NAMED.items()}
-        writer = Writer(sum(channels.values()))
-        for block in read_blocks(archive, channels, optional=SITUATION):
+        writer = Writer(sum(widths(robot.n).values()))
+        for block in read_blocks(archive, shapes(robot.n), optional=SITUATION):
             check_rows(block, robot.n, known)
             sound = sound or bool(sound_rows(block, robot.n).any())
             writer.extend(block)
         if not sound:
             raise ValueError("none of its ticks holds only numbers")
-        return Recording(robot=robot, data=writer.table(), **own)
+        previews = read_previews(archive, robot.n)
+        return Recording(robot=robot, data=writer.table(), previews=previews, **own)

@@ -73,9 +73,11 @@ class Table:
     """How many are in the file."""
     tail: np.ndarray
     """The rows after them, `(rows, width)`."""
+    block: int
+    """Rows of a block."""
 
     def __len__(self) -> int:
-        return self.blocks * BLOCK + len(self.tail)
+        return self.blocks * self.block + len(self.tail)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -84,9 +86,9 @@ class Table:
     def __getitem__(self, key: tuple[slice, slice]) -> np.ndarray:
         (start, stop, _), (left, right, _) = (k.indices(n) for k, n in zip(key, self.shape, strict=True))
         out = np.empty((max(0, stop - start), right - left))
-        filed = self.blocks * BLOCK
-        for begin in range(start - start % BLOCK, min(stop, filed), BLOCK):
-            first, last = max(start, begin), min(stop, begin + BLOCK)
+        filed = self.blocks * self.block
+        for begin in range(start - start % self.block, min(stop, filed), self.block):
+            first, last = max(start, begin), min(stop, begin + self.block)
             out[first - start : last - start] = self.read(begin, left, right)[
                 :, first - begin : last - begin
             ].T
@@ -96,9 +98,9 @@ class Table:
         return out
 
     def read(self, begin: int, left: int, right: int) -> np.ndarray:
-        """The columns `(columns, BLOCK)` of the block that begins with a row."""
-        out = np.empty((right - left, BLOCK))
-        self.file.seek(8 * (begin * self.shape[1] + left * BLOCK))
+        """The columns `(columns, block)` of the block that begins with a row."""
+        out = np.empty((right - left, self.block))
+        self.file.seek(8 * (begin * self.shape[1] + left * self.block))
         got = self.file.readinto(out.data)
         assert got == out.nbytes, "a file without a name lost what was written to it"
         return out
@@ -111,16 +113,18 @@ class Table:
 def first_rows(data: "np.ndarray | Table", length: int) -> "np.ndarray | Table":
     """The first rows of some; those that are left out are in memory."""
     if isinstance(data, Table):
-        return Table(data.file, data.blocks, data.tail[: length - data.blocks * BLOCK])
+        return Table(data.file, data.blocks, data.tail[: length - data.blocks * data.block], data.block)
     return data[:length]
 
 
 class Writer:
     """Takes rows, one after the other."""
 
-    def __init__(self, width: int) -> None:
+    def __init__(self, width: int, block: int | None = None) -> None:
+        """`block`: rows that go to the file at once, and no more stay in memory (`BLOCK` and `IN_MEMORY`)."""
         self.width = width
-        self.most = max(BLOCK, IN_MEMORY // (8 * width))
+        self.block = block or BLOCK
+        self.most = block or max(BLOCK, IN_MEMORY // (8 * width))
         self.newest: list[bytes] = []
         """Rows that are in no file."""
         self.file: FileIO | None = None
@@ -129,7 +133,7 @@ class Writer:
     def add(self, row: bytes) -> None:
         """Takes a row of float64. Raises `NoRoom` where older ones cannot be written; all are kept then."""
         self.newest.append(row)
-        if len(self.newest) >= self.most + BLOCK:
+        if len(self.newest) >= self.most + self.block:
             self.write()
 
     def extend(self, rows: np.ndarray) -> None:
@@ -139,7 +143,7 @@ class Writer:
 
     def write(self) -> None:
         """Writes the oldest block that is still in memory."""
-        block = self.array(self.newest[:BLOCK]).T.tobytes()
+        block = self.array(self.newest[: self.block]).T.tobytes()
         try:
             if self.file is None:
                 self.file = tempfile.TemporaryFile(buffering=0, dir=folder())  # noqa: SIM115 - closed by its last owner
@@ -150,7 +154,7 @@ class Writer:
         except OSError as error:
             raise NoRoom(f"no room for the recording in {folder()}: {error.strerror}") from error
         self.blocks += 1  # with the next line: nothing may come between the two
-        del self.newest[:BLOCK]
+        del self.newest[: self.block]
 
     def array(self, rows: list[bytes]) -> np.ndarray:
         """Rows as an array that may be changed."""
@@ -159,7 +163,7 @@ class Writer:
     def table(self) -> np.ndarray | Table:
         """What was taken so far: an array while all of it is in memory."""
         newest = self.array(self.newest)
-        return newest if self.file is None else Table(self.file, self.blocks, newest)
+        return newest if self.file is None else Table(self.file, self.blocks, newest, self.block)
 
 
 def folder() -> str:

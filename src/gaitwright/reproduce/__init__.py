@@ -6,7 +6,15 @@ says, claim by claim, with what we get beside it, and whether the two agree, dif
 
 from gaitwright.errors import unknown
 
-NAMES = ("table-6.1", "table-6.2", "figure-6.5", "figure-6.6")
+NAMES = (
+    "table-6.1",
+    "table-6.2",
+    "figure-6.5",
+    "figure-6.6",
+    "figure-6.9",
+    "figure-6.10",
+    "figure-6.11",
+)
 """What can be reproduced; the module of `table-6.1` is `table_6_1`."""
 
 

@@ -12,7 +12,7 @@ from matplotlib.typing import LineStyleType
 
 from gaitwright.gait.desired_cycle import DesiredCycle
 from gaitwright.pictures import Sheet
-from gaitwright.pictures.style import INK, LEFT, STYLE, WIDTH, dress
+from gaitwright.pictures.style import LEFT, STYLE, WIDTH, dress
 from gaitwright.reproduce.patterns import KNEE, PSI, THETA
 
 ROWS = (
@@ -43,10 +43,8 @@ def draw_curves(
     path: Path, words: tuple[str, str], cycle: DesiredCycle, robots: Sequence[Curves], limit: float
 ) -> None:
     """Draws a PNG under a title and a line of `words`; the swing phases of `cycle` are shaded."""
-    title, line = words
     sheet = Sheet(height=TOP + 3 * ROW + BOTTOM)
-    sheet.figure.text(LEFT / WIDTH, 1 - 0.42 / sheet.height, title, fontsize=19, fontweight="bold", color=INK)
-    sheet.figure.text(LEFT / WIDTH, 1 - 0.74 / sheet.height, line, fontsize=12, color=INK)
+    sheet.head(*words)
     width = (WIDTH - LEFT - 0.3 - 3 * GAP) / 4
     for row, (joint, name) in enumerate(ROWS):
         low, high = span(robots, joint, limit)

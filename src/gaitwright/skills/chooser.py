@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from gaitwright.model.robot import Robot
-from gaitwright.signals import Route, Sensed, SkillCall
+from gaitwright.signals import SHARP, Route, Sensed, SkillCall
 from gaitwright.skills.library import (
     Skill,
     check_speed,
@@ -16,7 +16,7 @@ from gaitwright.skills.library import (
 from gaitwright.skills.path_following import approach_speed, heading_error, turn_rate, wished_speed
 from gaitwright.stages import Map, Now
 
-TURN_FIRST = math.radians(40)
+TURN_FIRST = SHARP
 """Farther off the path than this, the robot turns on the spot before it goes on."""
 KEEP_TURNING = math.radians(15)
 """A turn on the spot goes on until the path is this near."""

@@ -31,13 +31,15 @@ class FootholdGuard:
     robot: Robot
 
     def choose(self, route: Route, sensed: Sensed, now: Now = None, ground: Map = None) -> SkillCall:
-        """The other's choice; `stop`, with a sentence, where it leads where no foot can stand."""
+        """The other's choice; `stop`, with a sentence, where it leads where no foot can stand. A person who
+        steers may then choose another way."""
         call = self.chooser.choose(route, sensed, now, ground)
         halt = None if ground is None else self.trouble(call, route, sensed, ground)
         if halt is None:
             return call
         gait = gait_of(find_skill("stop", self.robot), self.robot)
-        return replace(call, skill="stop", gait=gait, velocity=(0.0, 0.0), turn=0.0, because=halt, halt=halt)
+        stop = replace(call, skill="stop", gait=gait, velocity=(0.0, 0.0), turn=0.0, because=halt)
+        return stop if route.attended else replace(stop, halt=halt)
 
     def trouble(self, call: SkillCall, route: Route, sensed: Sensed, ground: GroundMap) -> str | None:
         """Why the robot must not go on with a call, or `None`."""

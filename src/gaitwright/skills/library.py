@@ -166,3 +166,13 @@ def check_speed(skill: Skill, robot: Robot, speed: float) -> None:
             f"{skill.name} at {speed:g} m/s is beyond the reach of {robot.name} ({weight:.0f} N on legs of "
             f"{robot.leg_length:.2f} m): at most {most:.2f} m/s"
         )
+
+
+def check_turn(skill: Skill, robot: Robot, turn: float) -> None:
+    """`WrongUse` where a yaw rate [rad/s] is beyond what the skill can do on this robot."""
+    most = fastest_turn(skill, robot)
+    if not abs(turn) <= most * (1 + 1e-9):
+        raise WrongUse(
+            f"{skill.name} at a yaw rate of {turn:g} rad/s is beyond the reach of {robot.name}, whose "
+            f"feet are up to {feet_reach(robot):.2f} m from its middle: at most {most:.2f} rad/s"
+        )

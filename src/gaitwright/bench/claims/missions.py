@@ -7,7 +7,7 @@ from pathlib import Path
 from gaitwright.bench.context import Context
 from gaitwright.bench.measurement import Figure, count
 from gaitwright.bench.trial import Outcome, Trial
-from gaitwright.navigation.navigator import ARRIVED
+from gaitwright.navigation.reached import ARRIVED
 
 GOAL = (6.0, 0.0)
 """From (0, 0) [m]."""

@@ -41,6 +41,8 @@ def prepared(folder: Path) -> None:
         "sound.json": originals.scenes,
         "sound.xml": originals.mjcfs,
         "sound.png": originals.height_maps,
+        "sound.csv": originals.routes,
+        "sound.steer": originals.commands,
     }
     for name, made in files.items():
         (folder / name).write_bytes(made()[0])

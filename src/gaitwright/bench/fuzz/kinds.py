@@ -16,9 +16,9 @@ from typing import Any
 import numpy as np
 
 from gaitwright.bench.fuzz import originals
+from gaitwright.bench.fuzz.command_lines import command_lines, damaged_line
 from gaitwright.bench.fuzz.mutations import (
     damaged_bytes,
-    damaged_command,
     damaged_json,
     damaged_value,
     damaged_xml,
@@ -33,13 +33,20 @@ from gaitwright.ground.scene import load_scene
 from gaitwright.knowledge.json_form import loads
 from gaitwright.learning.map_books import learned_map_of
 from gaitwright.learning.notes import relearned
+from gaitwright.navigation.guidance_files import load_programme, load_steering
+from gaitwright.navigation.known_field import known_field
 from gaitwright.navigation.navigator import Navigator
-from gaitwright.navigation.visibility import shortest_path
+from gaitwright.navigation.room_needed import half_width
 from gaitwright.perception.known_ground import map_of
+from gaitwright.plant.kinematic import KinematicPlant
 from gaitwright.plant.mujoco.world import Placed, build_world
+from gaitwright.record.preview_facts import facts_of
+from gaitwright.record.previews import previews_in
 from gaitwright.record.recording import load
+from gaitwright.signals import Mission
 from gaitwright.skillbook import rows
 from gaitwright.skillbook.book import Skillbook, export_text, import_text
+from gaitwright.skills.commanded import check_velocity
 from gaitwright.skills.library import find_skill, gait_of
 
 DOCUMENTED = (0, 1, 2, 3, 130)
@@ -64,10 +71,7 @@ class Kind:
 def take_scene(path: Path) -> None:
     """Read, mapped, planned in and built."""
     robot, scene = load_robot("go2"), load_scene(str(path))
-    ground = map_of(scene, robot)
-    view = Navigator(robot).view(ground)
-    if not view.blocked(scene.start[:2]) and view.inside(GOAL):
-        shortest_path(view, scene.start[:2], GOAL)
+    known_field(map_of(scene, robot), half_width(robot)).way(scene.start[:2], GOAL)
     build_world([Placed(robot)], scene)
 
 
@@ -96,13 +100,29 @@ def take_text(path: Path) -> None:
     relearned(book)
 
 
+def take_route(path: Path) -> None:
+    """Read, and set out on."""
+    mission = Mission((), guidance=load_programme(path))
+    robot, scene = load_robot("go2"), load_scene("flat")
+    Navigator(robot).set_out(mission, KinematicPlant(robot, scene).reset(), map_of(scene, robot))
+
+
+def take_commands(path: Path) -> None:
+    """Read, and each held against what the robot can do."""
+    for velocity in load_steering(path).velocities:
+        check_velocity(load_robot("go2"), velocity)
+
+
 def take_rulebook(path: Path) -> None:
     loads(path.read_bytes(), path.name)
 
 
 def take_recording(path: Path) -> None:
     """Read, summed up, and asked about its last moment."""
-    load(path).report()
+    recording = load(path)
+    recording.report()
+    for held in previews_in(recording.previews) if recording.previews is not None else ():
+        json.dumps(facts_of(recording.robot, held), allow_nan=False)
     import_module("gaitwright.cli.recorded_moment").recorded_facts(str(path), None)  # stands above us
 
 
@@ -204,76 +224,14 @@ def damaged_array(chance: Random, array: np.ndarray) -> np.ndarray:
     if how == 0:
         return array[: chance.choice((0, 1, len(array) // 2))]
     if how == 1:
-        return array.astype(chance.choice(("f4", "i8", "U3", "c16")))
+        with np.errstate(invalid="ignore"):  # what is no number is no whole one either
+            return array.astype(chance.choice(("f4", "i8", "U3", "c16")))
     if how == 2:
         return array.reshape(-1, 1)
     array = array.astype(float)
     places = slice(None) if how == 3 else slice(chance.randrange(len(array)), None)
     array[places] = chance.choice((np.nan, np.inf, -1.0, 1e300, 0.0, 1e12, 0.5))
     return array
-
-
-COMMANDS: tuple[tuple[str, ...], ...] = (
-    ("skill", "--seconds", "0.01", "--skill", "trot", "--speed", "0.4", "--turn", "0.1", "--seed", "3"),
-    ("skill", "--seconds", "0.01", "--scene", "rough:0.03", "--lateral", "0.1", "--push", "0.2", "90"),
-    ("skill", "--seconds", "0.01", "--cycle", "climb", "--json", "figures.json", "--robot", "hexapod"),
-    ("skill", "--seconds", "0.01", "--plant", "kinematic", "--driver", "kinematic", "--scene", "blocks"),
-    (
-        "mission",
-        "--seconds",
-        "0.01",
-        "--goal",
-        "2",
-        "0",
-        "--start",
-        "0",
-        "0",
-        "0.1",
-        "--scene",
-        "stairs:0.08",
-    ),
-    ("mission", "--seconds", "0.01", "--waypoints", "1,0.2", "2,-1", "--speed", "0.5", "--scene", "gap"),
-    ("mission", "--seconds", "0.01", "--goal", "2", "0", "--driver", "hybrid", "--skillbook", "sound.skills"),
-    ("mission", "--seconds", "0.01", "--goal", "2", "0", "--sight", "camera", "--skillbook", "sound.skills"),
-    ("books", "map", "sound.skills", "a block (seed 0)"),
-    ("skills", "--robot", "hexapod"),
-    ("skills", "--cycle", "trot", "--robot", "go2"),
-    ("scenes", "--json", "-"),
-    ("robots", "--json", "robots.json"),
-    ("explain", "sound.skills", "--rule", "trot"),
-    ("explain", "sound.skills", "--situation", "road=flat", "pace=0.4", "--not", "climb"),
-    ("explain", "sound.skills", "--history", "trot", "--json", "-"),
-    ("explain", "sound.skills", "--recording", "sound.npz", "--at", "0.02"),
-    ("books", "export", "sound.skills", "--out", "text.txt"),
-    ("books", "import", "sound.txt", "--out", "again.skills"),
-    ("books", "merge", "sound.skills", "sound.skills", "--out", "both.skills"),
-    ("books", "confirm", "sound.skills", "nothing"),
-    ("books", "forget", "sound.skills", "nothing"),
-    ("balance", "sound.json", "--forget", "left+:stop", "--out", "rest.json"),
-    ("scenes", "--plot", "nothing", "sound.json", "sound.png", "--out", "there.png"),
-    ("bench", "walks", "--nothing"),
-    ("reproduce", "nothing", "--out", "there"),
-    ("teach", "--robot", "nothing", "--out", "new.skills", "--trips", "1"),
-)
-"""Command lines to be damaged; what takes long is wrong from the start."""
-
-
-def command_lines() -> tuple[bytes, ...]:
-    return tuple(json.dumps(words).encode() for words in COMMANDS)
-
-
-def damaged_line(chance: Random, content: bytes) -> bytes:
-    """A damaged command line that is over soon: it simulates for some ticks, and teaches nothing."""
-    words = damaged_command(chance, json.loads(content))
-    if words[:1] != ["teach"] or "nothing" in words:
-        quick = [word for word in words if word not in ("bench", "reproduce", "demo", "--check")]
-        slow = len(quick) < len(words) and "nothing" not in words and "--nothing" not in words
-        words = [*words, "--nothing"] if slow else words
-    else:
-        words = [*words, "--nothing"]
-    if words[:1] and words[0] in ("skill", "mission"):
-        words = [*words, "--seconds", "0.01"]
-    return json.dumps(words).encode()
 
 
 KINDS = {
@@ -286,6 +244,8 @@ KINDS = {
     "book text": Kind(".txt", originals.texts, damaged_text, take_text),
     "rulebook": Kind(".json", originals.rulebooks, damaged_json, take_rulebook),
     "recording": Kind(".npz", originals.recordings, damaged_recording, take_recording),
+    "route": Kind(".csv", originals.routes, damaged_bytes, take_route),
+    "velocity": Kind(".csv", originals.commands, damaged_bytes, take_commands),
     "balance": Kind(".json", originals.balances, damaged_json, load_balance),
     "command": Kind(".line", command_lines, damaged_line, take_command),
 }

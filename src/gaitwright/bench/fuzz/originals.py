@@ -127,6 +127,20 @@ def skillbooks() -> tuple[bytes, ...]:
         return (book().save(Path(folder) / "sound.skills").read_bytes(),)
 
 
+def routes() -> tuple[bytes, ...]:
+    """A route as CSV and as JSON."""
+    stops = [{"x": 1.0, "y": 0.2, "speed": 0.4}, {"x": 2.0, "y": -0.5, "wait": 1.5}]
+    csv = b"# rounds\nx,y,speed,wait\n1,0.2,0.4,\n2,-0.5,,1.5\n-1,0,0.6,0\n"
+    return csv, json.dumps({"stops": stops}).encode()
+
+
+def commands() -> tuple[bytes, ...]:
+    """A person's commands as CSV and as JSON."""
+    rows = [{"time": 0, "forward": 0.4}, {"time": 1.5, "left": -0.1, "turn": 0.3}, {"time": 3}]
+    csv = b"time,forward,left,turn\n0,0.4,0,0\n1.5,0,-0.1,0.3\n3,0,0,0\n"
+    return csv, json.dumps({"commands": rows}).encode()
+
+
 def balances() -> tuple[bytes, ...]:
     """Rules of balance, in two skills and in all."""
     bands = dict.fromkeys(QUANTITIES, 0.2)
@@ -139,9 +153,10 @@ def balances() -> tuple[bytes, ...]:
 
 @cache
 def recordings() -> tuple[bytes, ...]:
-    """A walk of some ticks, without mechanics: nothing has to be compiled for it."""
+    """A walk of some ticks, without mechanics, with what the terrain scanner held."""
     robot, scene = load_robot("go2"), load_scene("flat")
     brain = Brain.of(robot, scene, fixed_skill(robot, "walk", 0.2, 0.0, 0.0, "kinematic"))
-    done = walk(brain, KinematicPlant(robot, scene), Mission((), driver="kinematic"), 0.06, scene="flat")
+    mission = Mission((), driver="kinematic")
+    done = walk(brain, KinematicPlant(robot, scene), mission, 0.06, scene="flat", previews=True)
     with tempfile.TemporaryDirectory() as folder:
         return (done.save(Path(folder) / "sound.npz").read_bytes(),)

@@ -64,7 +64,7 @@ class AStar:
         """The planner with this lattice."""
         return self if lattice is self.lattice else replace(self, lattice=lattice)
 
-    def way(self, start: Point, goal: Point) -> GridWay | None:
+    def way(self, start: Point, goal: Point, facing: float = 0.0) -> GridWay | None:
         """The shortest way over the lattice."""
         if self.lattice.is_clear(start, goal):
             return straight(start, goal)

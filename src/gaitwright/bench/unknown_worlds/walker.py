@@ -74,8 +74,8 @@ class Planner(Protocol):
         """The planner after a trip that went this way, from its start to its end."""
         ...
 
-    def way(self, start: Point, goal: Point) -> Way | None:
-        """The way to go, or `None` where there is none."""
+    def way(self, start: Point, goal: Point, facing: float) -> Way | None:
+        """The way to go for who faces `facing` [rad], or `None` where there is none."""
         ...
 
     def is_cut(self, path: Float[np.ndarray, "n 2"]) -> bool:
@@ -170,7 +170,7 @@ class Walker:
     def plan(self, goal: Point) -> Float[np.ndarray, "n 2"] | None:
         """Way-points to the goal, or `None`."""
         began = perf_counter()
-        way = self.planner.way(self.place, goal)
+        way = self.planner.way(self.place, goal, self.heading)
         self.plans.append(1e3 * (perf_counter() - began))
         if way is None:
             return None

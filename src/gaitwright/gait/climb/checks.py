@@ -7,7 +7,8 @@ from jaxtyping import Float
 
 from gaitwright.gait.climb.motion import Motion
 from gaitwright.ground.scene import Scene
-from gaitwright.model.kinematics import HINGES, REACHED, feet_over_time
+from gaitwright.model.centre_of_mass import centres_of_mass, on_link
+from gaitwright.model.kinematics import HINGES, REACHED
 from gaitwright.model.reach import reach
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.polygon import hull, margins
@@ -50,19 +51,8 @@ class Margins(NamedTuple):
 
 def links(robot: Robot, q: Float[np.ndarray, "n legs 3"]) -> Links:
     """Hinges, feet and the centre of mass for joint angles [rad]."""
-    of = robot.arrays
-
-    def at(points: np.ndarray, link: int) -> np.ndarray:
-        """Where points `(legs, 3)` of a link are, given from its hinge in its axes."""
-        offset = of.offset.copy()
-        offset[:, link], offset[:, link + 1 :] = points, 0.0
-        return feet_over_time(of.hip, of.leg_frame, offset, of.sign, q)
-
-    hip, knee, foot = (at(robot.offset[:, link], link) for link in range(3))
-    moment = robot.base_mass * robot.base_com + sum(
-        (robot.mass[:, link, None] * at(robot.com[:, link], link)).sum(axis=1) for link in range(3)
-    )
-    return Links(hip, knee, foot, moment / robot.total_mass)
+    hip, knee, foot = (on_link(robot, q, robot.offset[:, link], link) for link in range(3))
+    return Links(hip, knee, foot, centres_of_mass(robot, q))
 
 
 def to_world(made: Motion, points_b: np.ndarray) -> np.ndarray:

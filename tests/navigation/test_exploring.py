@@ -10,8 +10,9 @@ import pytest
 from gaitwright.description.load import load_robot
 from gaitwright.ground.elevation import BLIND
 from gaitwright.model.robot import Robot
-from gaitwright.navigation.explorer import Explored, Explorer
-from gaitwright.navigation.obstacles import half_width
+from gaitwright.navigation.navigator import Navigator
+from gaitwright.navigation.room_needed import half_width
+from gaitwright.navigation.travel import Travel
 from gaitwright.signals import GroundMap, Mission, Route, Sensed, Sight
 
 GO2 = load_robot("go2")
@@ -42,8 +43,8 @@ def clearance(path: list[tuple[float, float]], piece: tuple[float, float, float,
     return min(float(np.hypot(*(w[:, None] - edge[None]).transpose(2, 0, 1)).min()) for w in ways)
 
 
-def begun(goal: tuple[float, float] = (10.0, 0.0)) -> tuple[Explorer, Route, Explored]:
-    explorer = Explorer(GO2, noise=0.005)
+def begun(goal: tuple[float, float] = (10.0, 0.0)) -> tuple[Navigator, Route, Travel]:
+    explorer = Navigator(GO2, noise=0.005)
     return explorer, *explorer.set_out(Mission((goal,), 0.4), at(0.0, 0.0), EMPTY)
 
 
@@ -81,15 +82,45 @@ def test_a_look_is_learned_once_and_memory_is_a_value():
 
 def test_where_there_is_no_way_it_says_so_and_stays():
     explorer, route, memory = begun()
-    x0, x1, y0, y1 = 9.0, 11.0, -1.0, 1.0
-    ring = ((x0, y0, x1, y0), (x1, y0, x1, y1), (x1, y1, x0, y1), (x0, y1, x0, y0))
+    ring = block(10.0, 0.0, 1.0)
     route, memory = explorer.plan(route, at(1.0, 0.0), seeing(*ring), None, memory)
     assert route.path == () and route.no_way == "to (10, 0) leads no way"
     assert explorer.plan(route, at(1.0, 0.0), EMPTY, None, memory)[0] is route
 
 
+def block(x: float, y: float, half: float) -> tuple[tuple[float, float, float, float], ...]:
+    """The four edges of a square."""
+    x0, x1, y0, y1 = x - half, x + half, y - half, y + half
+    return (x0, y0, x1, y0), (x1, y0, x1, y1), (x1, y1, x0, y1), (x0, y1, x0, y0)
+
+
+def test_a_goal_on_a_thing_that_is_seen_is_said_to_be_there():
+    explorer, route, memory = begun()
+    route, memory = explorer.plan(route, at(8.0, 0.0), seeing(*block(10.0, 0.0, 0.15)), None, memory)
+    assert (route.path, route.no_way) == ((), "on (10, 0) stands an obstacle")
+
+
+def test_half_a_thing_is_enough_to_say_so():
+    explorer, route, memory = begun()
+    route, _ = explorer.plan(route, at(8.0, 0.0), seeing((9.9, -0.2, 9.9, 0.2)), None, memory)
+    assert route.no_way == "on (10, 0) stands an obstacle"
+
+
+@pytest.mark.parametrize(
+    ("goal", "sentence"),
+    [
+        ((16.0, 0.0), "(16, 0) lies outside the scene"),
+        ((14.9, 0.0), "(14.9, 0) lies too near to the edge of the scene"),
+        ((0.0, -4.85), "(0, -4.85) lies too near to the edge of the scene"),
+    ],
+)
+def test_a_goal_at_the_edge_of_the_field_is_said_to_be_there(goal: tuple[float, float], sentence: str):
+    route = begun(goal)[1]
+    assert (route.path, route.no_way) == ((), sentence)
+
+
 def test_way_points_are_passed_in_their_order():
-    explorer = Explorer(GO2, noise=0.005)
+    explorer = Navigator(GO2, noise=0.005)
     mission = Mission(((2.0, 0.0), (2.0, 3.0), (6.0, 3.0)))
     route, memory = explorer.set_out(mission, at(0.0, 0.0), EMPTY)
     assert route.path == mission.waypoints
