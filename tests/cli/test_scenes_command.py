@@ -55,3 +55,15 @@ def test_a_mission_tells_what_was_mended(tmp_path: Path, capsys: pytest.CaptureF
     said = " ".join(capsys.readouterr().err.split())
     assert "yard: shapes[0]: 1 corner repeated" in said
     assert "the start (0, 0) is on an obstacle of scene yard, or too near to one" in said
+
+
+@pytest.mark.parametrize("sight", ["known", "camera"])
+def test_no_mission_begins_where_something_stands_that_moves_off_later(
+    sight: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    yard = tmp_path / "yard.json"
+    post = {"type": "cylinder", "x": 0.1, "y": 0, "radius": 0.3, "height": 1}
+    yard.write_text(json.dumps({"shapes": [post | {"moves": {"along": [[3, 3]], "speed": 1, "from": 2}}]}))
+    words = ["mission", "--scene", str(yard), "--goal", "3", "0", "--seconds", "1", "--sight", sight]
+    assert main(words) == 2
+    assert "the start (0, 0) is on an obstacle of scene yard" in " ".join(capsys.readouterr().err.split())

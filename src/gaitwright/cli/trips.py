@@ -110,7 +110,10 @@ def set_up(
     with working(f"mapping scene {scene.name}", worth_a_line=None):
         sees = sight != "blind"
         brain = Brain.of(robot, scene, chooser, DT, distribution, sees=sees, sensing=sensing, camera=camera)
-        true = map_of(scene, robot) if camera else brain.perception.ground  # a camera has seen nothing yet
+        is_told = (
+            camera is None and not scene.movers
+        )  # a camera has seen nothing yet; what moves is in no map
+        true = brain.perception.ground if is_told else map_of(scene.at(0.0), robot)
         on_obstacle = is_blocked(true, half_width(robot), (x, y))
     if on_obstacle:
         raise WrongUse(

@@ -26,7 +26,7 @@ def draw_moving(ax: Axes, scene: Scene) -> None:
         if len(scene.movers) <= FEW:
             x, y = mover.path[0]
             at = (x, y + mover.solid.reach)
-            text = {"fontsize": 8, "color": MOVES, "ha": "center", "zorder": 3}
+            text = {"fontsize": 8, "color": MOVES, "ha": "center", "zorder": 3, "clip_on": True}
             ax.annotate(words(mover), at, (0, 2), textcoords="offset points", **text)
 
 
@@ -36,7 +36,8 @@ def draw_stretch(ax: Axes, begin: Point, end: Point) -> None:
     ax.plot((x0, x1), (y0, y1), color=MOVES, linewidth=1.2, alpha=0.7, zorder=2.3)
     middle = ((x0 + 2.0 * x1) / 3.0, (y0 + 2.0 * y1) / 3.0)
     arrow = {"arrowstyle": "-|>", "color": MOVES, "linewidth": 1.2, "mutation_scale": 11.0}
-    ax.annotate("", middle, begin, arrowprops=arrow | {"shrinkA": 0.0, "shrinkB": 0.0}, zorder=2.5)
+    drawn = ax.annotate("", middle, begin, arrowprops=arrow | {"shrinkA": 0.0, "shrinkB": 0.0}, zorder=2.5)
+    drawn.arrow_patch.set_clip_path(ax.patch)  # pyright: ignore[reportOptionalMemberAccess] - it has an arrow
 
 
 def words(mover: Mover) -> str:
