@@ -295,12 +295,14 @@ def think(brain: Brain, mind: Mind, measured: Measured) -> tuple[Lap, Mind]:
 
 
 def plan_and_choose(brain: Brain, mind: Mind, sensed: Sensed, ground: GroundMap) -> tuple[Mind, Memory]:
-    """The slower stages: the navigator looks a few times a second, the chooser at every cycle and event."""
+    """The slower stages: the navigator looks a few times a second and where more of the ground is known, the
+    chooser at every cycle and event."""
     now, looked_at, travelled = sensed.time, mind.looked_at, mind.memories.navigator
     route, old, event = mind.route, mind.route, ground.obstacles is not mind.ground.obstacles
-    if event or now - looked_at >= LOOK_EVERY - 1e-9:
+    if event or ground.sight is not mind.ground.sight or now - looked_at >= LOOK_EVERY - 1e-9:
         scan = brain.perception.look(ground, sensed) if route.path else None
-        route, travelled = brain.navigator.plan(route, sensed, ground, scan, travelled)
+        onwards = replace(route, blocked=mind.call.blocked) if mind.call.blocked else route
+        route, travelled = brain.navigator.plan(onwards, sensed, ground, scan, travelled)
         looked_at, event = now, event or bool(ground.moving)
     event = event or (route is not old and route.is_other_than(old))
     if not event and now - mind.chosen_at < mind.call.gait.period - 1e-9:

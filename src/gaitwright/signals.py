@@ -97,6 +97,17 @@ class Sight(NamedTuple):
     """Rim of what was seen to be free: star-shaped around the eye, anticlockwise; the eye may lie on it."""
 
 
+class Blocked(NamedTuple):
+    """Ground on which a foot finds no place to stand, as far as it is known."""
+
+    rim: tuple[tuple[float, float], ...]
+    """Where it begins, point by point, world x, y [m]; one point: it is not known how far it goes on."""
+    direction: float
+    """World direction from where it is come to [rad]."""
+    is_seen: bool
+    """Whether there was seen to be none; else not all was seen."""
+
+
 class Moving(NamedTuple):
     """A thing that moves, as far as it is known, seen from above."""
 
@@ -208,6 +219,8 @@ class Route:
     """Why the robot stands for now, as a sentence."""
     halt: str | None = None
     """Why it must not go on, as a sentence."""
+    blocked: Blocked | None = None
+    """Over what the robot could not go on, as it was found since the way was planned."""
     attended: bool = False
     """Whether a person steers who can give another velocity: a robot that must not go on waits for it."""
 
@@ -257,6 +270,8 @@ class SkillCall:
     """Why this skill, as a sentence."""
     halt: str | None = None
     """Why the robot must not go on, as a sentence."""
+    blocked: Blocked | None = None
+    """What it must not go on over."""
     memory: Mapping[str, str | float] = field(default_factory=dict, hash=False)
     """Working memory after this choice: what rules added and have not deleted."""
     firm: bool = False

@@ -43,7 +43,7 @@ def test_a_chosen_foothold_is_fit_and_near(name: str, place, off) -> None:
     asked = wish(name, *place, tuple(np.add(place, off).tolist()), lean=(-1.0, 0.0))
     found, x, y = choose_foothold(GROUNDS[name], asked)
     if found:
-        assert is_fit(GROUNDS[name], *nearest(GROUNDS[name], x, y), asked, RIM)
+        assert is_fit(GROUNDS[name], *nearest(GROUNDS[name], x, y), asked, 1.0)
         assert math.dist((x, y), place) <= SEARCHED * H + 0.03
     else:
         assert (x, y) == place
@@ -65,6 +65,17 @@ def test_far_into_its_swing_a_foot_keeps_to_its_side_of_a_gap(swung: float, goes
     asked = FootholdRequest(0.16, 0.0, 0.0, 0.0, 0.0, 0.1, (0.0, 0.0), H, swung)
     found, x, _ = choose_foothold(ground, asked)
     assert found and x == pytest.approx(0.2 if goes_over else 0.0)
+
+
+def test_in_the_middle_of_a_hole_a_foot_takes_the_rim_since_it_finds_nothing_better() -> None:
+    """A hole of 0.3 m, with rims beside it as wide as they are around what is hidden."""
+    edges = np.zeros((60, 60))
+    edges[:, 20:40] = RIM
+    edges[:, 23:38] = 1.0
+    ground = ElevationGrid(np.array([-0.6, -0.6, 0.02]), np.zeros((60, 60)), edges)
+    asked = FootholdRequest(0.0, 0.0, -0.1, 0.0, 0.0, 0.1, (0.0, 0.0), H)
+    found, x, _ = choose_foothold(ground, asked)
+    assert found and x == pytest.approx(-0.16)
 
 
 def test_on_a_rim_stands_nobody_who_has_a_choice_but_it_stops_nobody() -> None:

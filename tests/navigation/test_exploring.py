@@ -11,9 +11,10 @@ from gaitwright.description.load import load_robot
 from gaitwright.ground.elevation import BLIND
 from gaitwright.model.robot import Robot
 from gaitwright.navigation.navigator import Navigator
+from gaitwright.navigation.piece_rows import FELT, KIND, SUPPOSED
 from gaitwright.navigation.room_needed import half_width
 from gaitwright.navigation.travel import Travel
-from gaitwright.signals import GroundMap, Mission, Route, Sensed, Sight
+from gaitwright.signals import Blocked, GroundMap, Mission, Route, Sensed, Sight
 
 GO2 = load_robot("go2")
 R = half_width(GO2)
@@ -142,3 +143,57 @@ def test_another_mission_goes_on_with_what_is_known():
     assert len(route.path) > 1 and clearance([(1.0, 0.0), *route.path], wall) > R - 0.02
     fresh, _ = explorer.set_out(Mission(((8.0, 1.0),)), at(1.0, 0.0), EMPTY)
     assert fresh.path == ((8.0, 1.0),)
+
+
+# --- where feet cannot go on ---------------------------------------------------------------------------
+RIM = ((3.0, -1.0), (3.0, 0.5), (3.4, 2.0))
+
+
+def stopped(*rim: tuple[float, float], is_seen: bool = True) -> tuple[Route, Travel]:
+    """What becomes of a way along x when feet were stopped on it."""
+    explorer, route, memory = begun()
+    route = replace(route, blocked=Blocked(rim, 0.0, is_seen))
+    return explorer.plan(route, at(2.5, 0.0), EMPTY, None, memory)
+
+
+def test_what_feet_do_not_get_over_is_walked_around_like_a_wall():
+    route, memory = stopped(*RIM)
+    assert route.blocked is None and route.path[-1] == (10.0, 0.0)
+    for (ax, ay), (bx, by) in pairwise(RIM):
+        assert clearance([(2.5, 0.0), *route.path], (ax, ay, bx, by)) > R - 0.02
+    assert route.path[0][1] < -1.0, "round the nearer end"
+    assert len(memory.known.pieces) == 2
+
+
+def test_it_is_learned_once():
+    explorer, route, memory = begun()
+    route = replace(route, blocked=Blocked(RIM, 0.0, is_seen=True))
+    first, after = explorer.plan(route, at(2.5, 0.0), EMPTY, None, memory)
+    _, later = explorer.plan(replace(first, blocked=route.blocked), at(2.5, 0.0), EMPTY, None, after)
+    assert later.known is after.known
+
+
+def test_no_look_takes_it_away_on_this_trip():
+    explorer = begun()[0]
+    route, memory = stopped(*RIM)
+    around = np.array([(2.0, -3.0), (8.0, -3.0), (8.0, 3.0), (2.0, 3.0)])
+    through = replace(EMPTY, sight=sight(eye=(2.5, 0.0))._replace(free=around))
+    _, later = explorer.plan(route, at(2.5, 0.0), through, None, memory)
+    assert len(later.known.pieces) == len(memory.known.pieces) == 2
+
+
+def test_of_one_place_the_sides_are_supposed_and_shut_no_way():
+    route, memory = stopped((3.0, 0.0))
+    assert len(route.path) > 1 and route.no_way is None
+    kinds = set(memory.known.rows[:, KIND].tolist())
+    assert kinds == {FELT, SUPPOSED}
+
+
+def test_where_nobody_saw_it_nothing_is_sure_and_a_look_may_show_better():
+    explorer = begun()[0]
+    route, memory = stopped((3.0, 0.0), is_seen=False)
+    assert set(memory.known.rows[:, KIND].tolist()) == {SUPPOSED} and len(route.path) > 1
+    around = np.array([(2.0, -3.0), (8.0, -3.0), (8.0, 3.0), (2.0, 3.0)])
+    through = replace(EMPTY, sight=sight(eye=(2.5, 0.0))._replace(free=around))
+    _, later = explorer.plan(route, at(2.5, 0.0), through, None, memory)
+    assert len(later.known.pieces) == 0

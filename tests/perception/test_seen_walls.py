@@ -9,6 +9,7 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from gaitwright.ground.holes import Hole, dug
 from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.ground.terrain import Box, Flat
 from gaitwright.model.camera import Camera
@@ -96,6 +97,46 @@ def test_a_step_too_high_is_a_wall_right_across():
     assert len(sight.pieces) and np.abs(sight.pieces[:, [0, 2]] - 1.2).max() < 0.5 * CELL
     assert np.ptp(sight.pieces[:, [1, 3]]) > 1.2
     assert not sight.corners.any()  # the field of view ends it on either side
+
+
+def dug_out(x: float, wide: float, turned: float = 0.0) -> Scene:
+    """A trench right across, 0.5 m deep, whose near bank crosses the x axis at x."""
+    c, s = math.cos(turned), math.sin(turned)
+    corners = [(0.0, -6.0), (wide, -6.0), (wide, 6.0), (0.0, 6.0)]
+    outline = tuple((x + c * a - s * b, c * b + s * a) for a, b in corners)
+    holes = [Hole(outline, 0.5)]
+    return Scene("trench", dug(Flat(), holes), holes=tuple(holes), bounds=(-8.0, -8.0, 8.0, 8.0))
+
+
+@pytest.mark.parametrize("turned", [0.0, 0.5, -0.5])
+def test_ground_that_ends_is_a_wall_from_near_by(turned):
+    scene = dug_out(1.0, 0.8, turned)
+    sight = sight_at(scene, 0.3)
+    hole = shapely.Polygon(scene.holes[0].outline)
+    near = shapely.LineString(np.array(scene.holes[0].outline)[[0, 3]])
+    places = sight.pieces.reshape(-1, 2)
+    ends = np.asarray(shapely.points(places))
+    assert len(sight.pieces) and shapely.distance(near, ends).min() < CELL
+    assert shapely.distance(hole, ends).max() <= 2.5 * CELL
+    close = ends[np.hypot(*(places - sight.eye).T) < 0.8]
+    assert len(close) and shapely.distance(near, close).max() <= 2.5 * CELL
+    assert shapely.Polygon(sight.free).buffer(0.0).intersection(hole).area < 0.02, "nobody looks through it"
+
+
+@pytest.mark.parametrize("turned", [0.0, 0.4, -0.4])
+@pytest.mark.parametrize("x", [0.2, 0.45, 0.7])
+def test_the_bank_of_what_is_stepped_over_is_none(turned, x):
+    sight = sight_at(dug_out(1.0, 0.2, turned), x)
+    assert not len(sight.pieces)
+
+
+@pytest.mark.parametrize("name", ["stairs:0.08", "rough:0.05", "hills:1", "waves:1", "ramp:30"])
+def test_ground_that_falls_gently_has_no_brink(name):
+    """Down the other way, too: from where it is highest."""
+    scene = load_scene(name)
+    x = np.arange(0.0, 5.0, 0.05)
+    top = float(x[np.argmax(scene.height(x, 0.0))])
+    assert not len(sight_at(scene, top).pieces)
 
 
 def test_ground_lies_on_the_left_of_pieces_and_a_box_shows_its_corners():

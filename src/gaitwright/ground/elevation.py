@@ -1,10 +1,12 @@
 """The ground as feet know it: heights on a grid, and the places where no foot should stand (row J8)."""
 
+import math
+
 import numpy as np
 from jaxtyping import Float
 
 from gaitwright.ground.scene import Scene
-from gaitwright.ground.terrain import Flat, Slope
+from gaitwright.ground.terrain import STEEPEST, Flat, Slope
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.compiled import kernel
 from gaitwright.signals import ElevationGrid
@@ -37,13 +39,18 @@ def elevation_grid(scene: Scene, robot: Robot) -> ElevationGrid:
     x = np.arange(x_min, x_max + spacing, spacing)
     y = np.arange(y_min, y_max + spacing, spacing)
     heights = np.array(scene.height(x[None, :], y[:, None]), dtype=float)
-    return ElevationGrid(np.array([x_min, y_min, spacing]), heights, edges(heights, EDGE * robot.height))
+    return ElevationGrid(
+        np.array([x_min, y_min, spacing]), heights, edges(heights, EDGE * robot.height, spacing)
+    )
 
 
-def edges(heights: Float[np.ndarray, "rows columns"], step: float) -> Float[np.ndarray, "rows columns"]:
-    """1 at nodes from which the ground breaks by more than `step` [m] within `MARGIN` nodes, else 0.
+def edges(
+    heights: Float[np.ndarray, "rows columns"], step: float, spacing: float
+) -> Float[np.ndarray, "rows columns"]:
+    """1 at nodes from which the ground breaks by more than `step` [m] within `MARGIN` nodes, or is too steep
+    to stand on, else 0. `spacing`: between nodes [m].
 
-    A break is the second difference outwards, in eight directions: nothing on any plane, however steep.
+    A break is the second difference outwards, in eight directions: nothing on any plane.
     """
     rows, columns = heights.shape
     wide = np.pad(heights, MARGIN, mode="reflect", reflect_type="odd")  # a plane goes on as one
@@ -56,7 +63,8 @@ def edges(heights: Float[np.ndarray, "rows columns"], step: float) -> Float[np.n
     for dy in (-1, 0, 1):
         for dx in (-1, 0, 1):
             outer, inner = shifted(MARGIN * dy, MARGIN * dx), shifted(half * dy, half * dx)
-            out[np.abs(outer - 2.0 * inner + heights) > step] = 1.0
+            steep = STEEPEST * MARGIN * spacing * math.hypot(dx, dy)
+            out[(np.abs(outer - 2.0 * inner + heights) > step) | (np.abs(outer - heights) > steep)] = 1.0
     return out
 
 

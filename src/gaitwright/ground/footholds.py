@@ -28,6 +28,10 @@ RIM = 0.75
 """Mark of nodes beside what is hidden, among the edges: feet that choose keep off, but it stops nobody."""
 
 
+NEARLY = 0.3
+"""Who finds a foothold so near before where it goes, in body heights, comes there."""
+
+
 class FootholdRequest(NamedTuple):
     """A foothold that is asked for."""
 
@@ -66,10 +70,21 @@ def is_fit(ground, row, column, wish, mark):
 
 @kernel
 def choose_foothold(ground, wish):
-    """The foothold nearest to a wished one: found or not, x, y [m]."""
+    """The foothold nearest to a wished one: found or not, x, y [m]. One on a rim is better than none."""
     row, column = nearest(ground, wish.x, wish.y)
     if is_fit(ground, row, column, wish, RIM):
         return True, wish.x, wish.y
+    for mark in (RIM, 1.0):
+        found, x, y = nearest_fit(ground, row, column, wish, mark)
+        if found:
+            return True, x, y
+    return False, wish.x, wish.y
+
+
+@kernel
+def nearest_fit(ground, row, column, wish, mark):
+    """The node with no mark of `mark` or more that is the best foothold around a wished one: found or not,
+    x, y [m]."""
     rows, columns = ground.heights.shape
     spacing, limit = ground.place[2], (SEARCHED * wish.height) ** 2
     reach = int(SEARCHED * wish.height / spacing)
@@ -80,7 +95,7 @@ def choose_foothold(ground, wish):
             x, y = ground.place[0] + j * spacing, ground.place[1] + i * spacing
             far = (x - wish.x) ** 2 + (y - wish.y) ** 2
             cost = far + faith * ((x - wish.before_x) ** 2 + (y - wish.before_y) ** 2)
-            if cost < least and far < limit and is_fit(ground, i, j, wish, RIM):
+            if cost < least and far < limit and is_fit(ground, i, j, wish, mark):
                 least, best_x, best_y = cost, x, y
     return least < math.inf, best_x, best_y
 
@@ -90,14 +105,16 @@ def last_foothold(ground, start, level, way, far, aside, step, stride, height):
     """How far a foot comes that goes straight from place to place, and the rise that stops it.
 
     `start`: x, y; `level`: of the ground that the robot stands on; `way`: its direction [rad]; `far`: so far
-    it looks; footholds up to `aside` beside its track will do; a `stride` is the longest stretch without
-    one [m]. Gives whether something stops it, how far it is to the last foothold [m], and how much higher the
-    ground is behind it [m].
+    it goes, or nearly; footholds up to `aside` beside its track will do; a `stride` is the longest stretch
+    without one [m]. Gives whether something stops it, how far it is to the last foothold [m], and how much
+    higher the ground is behind it [m].
     """
     ahead_x, ahead_y, spacing = math.cos(way), math.sin(way), ground.place[2]
     last, allowed = 0.0, OFF_PLANE * step
-    for i in range(math.ceil(far / spacing)):
+    for i in range(math.ceil((far + stride) / spacing) + 1):
         at, found = i * spacing, False
+        if at > far and last > far - NEARLY * height:
+            break
         for k in (0.0, 1.0, -1.0):
             x = start[0] + at * ahead_x - k * aside * ahead_y
             y = start[1] + at * ahead_y + k * aside * ahead_x
@@ -108,5 +125,7 @@ def last_foothold(ground, start, level, way, far, aside, step, stride, height):
                 break
         if not found and at - last > stride:
             row, column = nearest(ground, start[0] + at * ahead_x, start[1] + at * ahead_y)
-            return True, last, ground.heights[row, column] - level
+            rise = ground.heights[row, column] - level
+            if at <= far or rise < -step:  # a path turns before a wall; a drop is no place to turn at
+                return True, last, rise
     return False, last, 0.0

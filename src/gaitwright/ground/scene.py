@@ -9,13 +9,14 @@ from jaxtyping import Float
 
 from gaitwright.errors import WrongUse
 from gaitwright.ground import height_map, layouts, scene_file, scenes_list
-from gaitwright.ground.holes import Hole
+from gaitwright.ground.holes import Hole, filled
 from gaitwright.ground.layout import FRICTION
 from gaitwright.ground.moving import Mover
 from gaitwright.ground.patches import Patch, sorted_patches
 from gaitwright.ground.relief import Relief
-from gaitwright.ground.terrain import Box, Number, Solid, Surface, upward
-from gaitwright.ground.walls import walls
+from gaitwright.ground.steep import steep_parts
+from gaitwright.ground.terrain import Box, HeightField, Number, Solid, Surface, upward
+from gaitwright.ground.walls import WIDE, walls
 
 
 @final
@@ -113,7 +114,9 @@ class Scene(Surface):
         and a step.
         """
         floor = self._floor(step)
-        return walls(self, [solid for solid in self.solids if solid not in floor], self.holes, step)
+        out = walls(self, [solid for solid in self.solids if solid not in floor], self.holes, step)
+        ground = filled(self.surface, self.holes)
+        return (*out, *steep_parts(ground, step, WIDE * step)) if isinstance(ground, HeightField) else out
 
     def _floor(self, step: float) -> set[Solid]:
         x, y, _ = self.start

@@ -13,6 +13,8 @@ from jaxtyping import Bool, Float, Num
 
 Number = Num[np.ndarray, "..."] | float | int
 """A number or an array of numbers."""
+STEEPEST = 1.0
+"""Ground that rises by more than this along a length of 1 is no place for feet: 45° [-]."""
 
 
 class Surface(ABC):

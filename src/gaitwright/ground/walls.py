@@ -3,7 +3,8 @@
 *High* is what rises by more than a step within a step's length: a box, but not a pyramid of 20°. A hole is
 walked around where it is deeper than a step and wider than `WIDE` steps; narrower ones are left to the feet,
 which stand beside them and step over (`footholds`, `foothold_guard`). A solid that a ramp leads up to, and
-the ramp itself, are walls only along those stretches of their outlines where the ground breaks.
+the ramp itself, are walls only along those stretches of their outlines where the ground breaks. The steep
+parts of a field of heights are told by `steep`.
 """
 
 from collections.abc import Sequence

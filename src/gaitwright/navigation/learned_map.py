@@ -98,18 +98,27 @@ class LearnedMap:
         trail = (*self.trail, sight.eye) if self.strategy == "thesis" else ()
         return replace(self, rows=rows, raster=with_sight(self.raster, sight.free), trail=trail)
 
-    def felt(self, place: Point, direction: float) -> "LearnedMap":
+    def felt(self, place: Point, direction: float, is_sure: bool = True) -> "LearnedMap":
         """With a contact of a disc that stands at `place` [m], on its rim in a world direction [rad]: there
         is something across it. No look of this trip unlearns it; but that it goes on to both sides is
-        only supposed."""
+        only supposed, and so is all of it where the robot is not sure."""
         require_places(np.array([*place, direction]))
         ahead = np.array([math.cos(direction), math.sin(direction)])
         across, at = np.array([-ahead[1], ahead[0]]), np.array(place) + (self.narrowest - TOUCH) * ahead
         rows = self.rows
-        for half, kind in ((TOUCHED + 2.0 * self.noise, FELT), (BESIDE, SUPPOSED)):
+        sure = ((TOUCHED + 2.0 * self.noise, FELT),) if is_sure else ()
+        for half, kind in (*sure, (BESIDE, SUPPOSED)):
             piece = np.concatenate([at - half * across, at + half * across])[None]
             rows = joined_rows(rows, rows_of(piece, False, kind), self.noise)
         return replace(self, rows=rows)
+
+    def barred(self, line: Path) -> "LearnedMap":
+        """With a line of which it was found that no robot gets over it [m]; no look of this trip unlearns
+        it."""
+        points = np.array([(float(x), float(y)) for x, y in line])
+        require_places(points)
+        pieces = np.column_stack([points[:-1], points[1:]])
+        return replace(self, rows=joined_rows(self.rows, rows_of(pieces, False, FELT), self.noise))
 
     def walked(self, way: Path) -> "LearnedMap":
         """With a trip that was made: its ground is free, so nothing lies deep within it. What was felt is

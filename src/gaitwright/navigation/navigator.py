@@ -23,7 +23,7 @@ from gaitwright.navigation.reached import PASSED, STOP_AT, has_arrived
 from gaitwright.navigation.roads import Bounds
 from gaitwright.navigation.room_needed import half_width
 from gaitwright.navigation.steering import steered
-from gaitwright.navigation.travel import Moment, Travel
+from gaitwright.navigation.travel import Moment, Travel, found_blocked
 from gaitwright.navigation.turning_room import come_along, going, room_to_turn
 from gaitwright.signals import GroundMap, Mission, Route, Scan, Sensed
 
@@ -87,21 +87,22 @@ class Navigator:
             return steered(guidance, travel, now, self.body), travel
         if not route.path:
             return route, memory
-        travel = self.looked(memory, ground)
+        travel = found_blocked(self.looked(memory, ground), route.blocked)
         travel = travel._replace(trail=come_along(travel.trail, now.place, self.body))
-        own = replace(route, path=route.path[len(travel.aside) :], facing=None, halt=None)
+        path = route.path[len(travel.aside) :]
+        own = replace(route, path=path, facing=None, halt=None, blocked=None)
         if guidance is not None:
             own, travel = gone_on_with(own, travel, now, self.robot)
         else:
-            own, travel = self.left_of(own, travel, now, is_news=travel.known is not memory.known)
+            own, travel = self.left_of(own, travel, now, memory)
         if self.makes_room and own.path and not (own.arrived or own.pause or own.halt):
             own, travel = self.with_room(own, travel, now)
         return self.seen(own, now, scan, travel)
 
     # --- the robot's own way --------------------------------------------------------------------------
-    def left_of(self, route: Route, travel: Travel, now: Moment, is_news: bool) -> tuple[Route, Travel]:
+    def left_of(self, route: Route, travel: Travel, now: Moment, before: Travel) -> tuple[Route, Travel]:
         """What is left of a way that was planned, or another one where it is blocked or the robot went aside.
-        `is_news`: whether more is known of the ground than when it was looked at last."""
+        `before`: what was known when it was looked at last."""
         here, path, known, left = now.place, route.path, travel.known, travel.left
         while len(path) > 1 and self.has_passed(known, here, path[0], path[1]):
             if len(left) > 1 and path[0] == left[0]:
@@ -109,7 +110,8 @@ class Navigator:
             path = path[1:]
         if left != travel.left:
             travel = travel._replace(left=left, cramped=())
-        is_anew = is_news and self.noise is None  # what stood in the way may be gone
+        is_news, is_stopped = known is not before.known, travel.blocked is not before.blocked
+        is_anew = is_stopped or (is_news and self.noise is None)  # what stood in the way may be gone
         is_astray = bool(travel.aside) or self.has_overshot(now, path)
         if is_anew or is_astray or known.is_cut((here, *path) if is_news else (here, *path[:1])):
             other, no_way = way_over(known, now, left)

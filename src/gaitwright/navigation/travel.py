@@ -1,12 +1,13 @@
 """What a navigator remembers, and what it goes by at a moment."""
 
+import math
 from typing import NamedTuple
 
 from gaitwright.missions import Mission, Stop
 from gaitwright.navigation.learned_map import LearnedMap
 from gaitwright.navigation.planning import Point
 from gaitwright.numerics.geometry import heading, rotation
-from gaitwright.signals import GroundMap, Sensed, Sight
+from gaitwright.signals import Blocked, GroundMap, Sensed, Sight
 
 Travelled = frozenset[tuple[int, int]]
 """Where a trip has been, as cells of a grid."""
@@ -23,6 +24,8 @@ class Travel(NamedTuple):
     """The last one that is in the map."""
     outlines: tuple[object, ...] | None = None
     """Those of known ground that are in the map."""
+    blocked: Blocked | None = None
+    """What is in the map since feet could not go on over it."""
     mission: Mission = Mission(())
     begun: float = 0.0
     """When it was given [s]."""
@@ -54,3 +57,16 @@ class Moment(NamedTuple):
         """As it is sensed."""
         x, y, _ = sensed.position_w.tolist()
         return cls((x, y), float(heading(rotation(sensed.orientation_wb))), sensed.time, ground)
+
+
+def found_blocked(travel: Travel, blocked: Blocked | None) -> Travel:
+    """With what feet could not go on over in the map."""
+    if blocked is None or blocked == travel.blocked:
+        return travel
+    known, (x, y), way = travel.known, blocked.rim[0], blocked.direction
+    if len(blocked.rim) > 1:
+        known = known.barred(blocked.rim)
+    else:  # as felt by a disc that is come to it
+        stands = x - known.narrowest * math.cos(way), y - known.narrowest * math.sin(way)
+        known = known.felt(stands, way, is_sure=blocked.is_seen)
+    return travel._replace(known=known, blocked=blocked)

@@ -15,7 +15,7 @@ from jaxtyping import Float, Float32
 
 from gaitwright.ground.elevation import MARGIN
 from gaitwright.ground.footholds import RIM
-from gaitwright.ground.terrain import Number
+from gaitwright.ground.terrain import STEEPEST, Number
 from gaitwright.numerics.compiled import kernel
 from gaitwright.perception.elevation_map import ElevationMap
 from gaitwright.perception.fusing import HEIGHT, HIGH, LOW, PROOF, VARIANCE, slot
@@ -35,7 +35,8 @@ FAR = 30_000
 def footholds_of(seen: ElevationMap) -> ElevationGrid:
     """The ground for feet: nodes are the middles of the map's cells."""
     heights, edges, known = (np.empty((seen.n, seen.n)) for _ in range(3))
-    write_grid(seen.cells, seen.first, seen.edge, seen.proof, heights, edges, known)
+    steep = STEEPEST * MARGIN * seen.spacing
+    write_grid(seen.cells, seen.first, (seen.edge, steep), seen.proof, heights, edges, known)
     row, column = seen.first
     return ElevationGrid(np.array([column * seen.spacing, row * seen.spacing, seen.spacing]), heights, edges)
 
@@ -67,12 +68,13 @@ class SeenElevation:
 
 # --- kernels ---------------------------------------------------------------------------------------
 @kernel
-def write_grid(cells, first, edge, proof, heights, edges, known):
+def write_grid(cells, first, limits, proof, heights, edges, known):
     """Writes heights [m], edges and what is known (0, 1) of a map's window, in the order of the world.
 
+    `limits`: a break by more than the first, or a rise by more than the second [m], is an edge.
     Ground is what has so many more hits than looks through as `proof` says.
     """
-    n = cells.shape[0]
+    n, (edge, steep) = cells.shape[0], limits
     for u in range(n):
         i, before = slot(first[0] + u, n), slot(first[1], n)
         for v in range(n):
@@ -83,7 +85,7 @@ def write_grid(cells, first, edge, proof, heights, edges, known):
             edges[u, v] = 1.0 if split else 0.0
     hidden = np.zeros((n, n), np.uint8)
     somewhere = fill(heights, known, edge, proof > -math.inf, hidden)
-    mark_breaks(heights, known, edge, edges, cells, first)
+    mark_breaks(heights, known, edge, steep, edges, cells, first)
     mark_rims(hidden, edges)
     for u in range(n):
         for v in range(n):
@@ -151,37 +153,48 @@ def mark_rims(hidden, edges):
 
 
 @kernel
-def doubt(cells, first, u, v, du, dv):
-    """Standard deviation of the break in a node of the window between two beside it [m]."""
+def doubt(cells, first, u, v, du, dv, middle):
+    """Standard deviation of a break in a node of the window between two beside it [m], or, where the `middle`
+    does not count, of the rise from the one to the other."""
     n, variance = cells.shape[0], 0.0
     for k in range(-1, 2):
         of = cells[slot(first[0] + u + k * du, n), slot(first[1] + v + k * dv, n), VARIANCE]
-        variance += (4.0 if k == 0 else 1.0) * of if of < math.inf else 0.0
+        variance += (middle if k == 0 else 1.0) * of if of < math.inf else 0.0
     return math.sqrt(variance)
 
 
 @kernel
-def mark_breaks(heights, known, step, edges, cells, first):
-    """The law of `ground.elevation.edges`: 1 where the ground breaks by more than `step` [m] near by.
+def mark_breaks(heights, known, step, steep, edges, cells, first):
+    """The law of `ground.elevation.edges`: 1 where the ground breaks by more than `step` [m] near by, or
+    rises by more than `steep` [m] from the node before to the one behind.
 
-    A break is seen by two places at least: what the unknown was filled with makes none. Nor does noise.
+    It is seen by two places at least: what the unknown was filled with makes none. Nor does noise.
     """
     n, half = heights.shape[0], MARGIN // 2
     broken = np.zeros((n, n), np.uint8)
     for u in range(half, n - half):  # first where there may be one at all: this is quick
         for v in range(half, n - half):
-            most, twice = 0.0, 2.0 * heights[u, v]
+            most, rise, twice = 0.0, 0.0, 2.0 * heights[u, v]
             for du, dv in ((0, half), (half, 0), (half, half), (half, -half)):
-                most = max(most, abs(heights[u - du, v - dv] - twice + heights[u + du, v + dv]))
-            broken[u, v] = most > step
+                before, after = heights[u - du, v - dv], heights[u + du, v + dv]
+                most = max(most, abs(before - twice + after))
+                rise = max(rise, abs(after - before))
+            broken[u, v] = most > step or rise > steep
     for u in range(half, n - half):
         for v in range(half, n - half):
             if broken[u, v] == 0:
                 continue
             for du, dv in ((0, half), (half, 0), (half, half), (half, -half)):
-                seen = known[u - du, v - dv] + known[u, v] + known[u + du, v + dv]
+                ends = known[u - du, v - dv] + known[u + du, v + dv]
                 off = abs(heights[u - du, v - dv] - 2.0 * heights[u, v] + heights[u + du, v + dv])
-                if seen < 1.5 or off <= step:
-                    continue
-                if off > 2.0 * step or off > step + VAGUE * doubt(cells, first, u, v, du, dv):
+                rise = abs(heights[u + du, v + dv] - heights[u - du, v - dv]) / math.hypot(
+                    du / half, dv / half
+                )
+                breaks = ends + known[u, v] > 1.5 and off > step
+                if breaks and off <= 2.0 * step:
+                    breaks = off > step + VAGUE * doubt(cells, first, u, v, du, dv, 4.0)
+                leans = ends > 1.5 and rise > steep
+                if leans and rise <= 2.0 * steep:
+                    leans = rise > steep + VAGUE * doubt(cells, first, u, v, du, dv, 0.0)
+                if breaks or leans:
                     edges[u - du, v - dv] = edges[u + du, v + dv] = 1.0

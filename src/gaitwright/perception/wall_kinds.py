@@ -16,6 +16,8 @@ FOOT = 0.25
 SEEN_OVER = 0.75
 """What is no higher than where the robot stands is a wall only if the ground before it is known to be lower
 over this share of the widest gap: else it may be the far side of one [-]."""
+BRINK = 5
+"""So many cells around a place where ground ends tell which way it ends."""
 AROUND = 2
 """So many cells around a wall tell which way it looks."""
 
@@ -44,6 +46,39 @@ def highest_before(cells, first, spacing, x, y, way_x, way_y, limits):
         if i >= 0 and cells[i, j, VARIANCE] < math.inf:
             before, known = max(before, cells[i, j, HEIGHT]), k * spacing
     return before, known
+
+
+@kernel
+def is_ground(cells, first, row, column, least):
+    """Whether a cell of the world's lattice is known to be as high as that [m]."""
+    i, j = cell_at(first, cells.shape[0], row, column)
+    return i >= 0 and cells[i, j, VARIANCE] < math.inf and cells[i, j, HEIGHT] >= least
+
+
+@kernel
+def is_brink(cells, first, spacing, x, y, way_x, way_y, least, gap):
+    """Whether ground that ends at a place has no other side, as high as `least` [m], within the widest gap
+    [m]: along the look, and straight over the edge. Else it is the bank of a gap."""
+    row, column = nearest_line(y, spacing), nearest_line(x, spacing)
+    over_x = over_y = 0.0
+    for u in range(-BRINK, BRINK + 1):
+        for v in range(-BRINK, BRINK + 1):
+            if not is_ground(cells, first, row + u, column + v, least):
+                over_x, over_y = over_x + v, over_y + u
+    length = math.hypot(over_x, over_y)
+    straight = (over_x / length, over_y / length) if length > 0.5 else (way_x, way_y)
+    for to_x, to_y in ((way_x, way_y), straight):
+        is_over = False
+        for k in range(1, math.ceil(gap / spacing) + 1):
+            row, column = (
+                nearest_line(y + k * spacing * to_y, spacing),
+                nearest_line(x + k * spacing * to_x, spacing),
+            )
+            if not is_ground(cells, first, row, column, least):
+                is_over = True
+            elif is_over:
+                return False
+    return True
 
 
 @kernel

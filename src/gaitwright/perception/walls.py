@@ -23,7 +23,7 @@ from gaitwright.perception.edge_runs import (
     join,
 )
 from gaitwright.perception.elevation_map import ElevationMap
-from gaitwright.perception.wall_kinds import FACE, GROUND, RIM, kind_of
+from gaitwright.perception.wall_kinds import FACE, GROUND, RIM, is_brink, kind_of
 from gaitwright.signals import DepthFrame, Sensed, Sight
 
 SUDDEN, GAP = 0.3, 1.1
@@ -98,7 +98,7 @@ def look(cells, first, spacing, eye, R_wc, rays, ranges, noise, limits, sectors,
     """Writes sectors `(SECTORS, 4)` and their points `(SECTORS, 3, 2)` from the hits of a frame."""
     rows, columns = ranges.shape
     sectors[:, WALL], sectors[:, FREE], sectors[:, LEVEL], sectors[:, STOPPED] = math.inf, 0.0, math.nan, 0.0
-    kinds = np.zeros(rows * columns, np.int8)
+    kinds, brink = np.zeros(rows * columns, np.int8), np.full(SECTORS, -1)
     for k in range(rows * columns - 1, -1, -1):  # from below: so each sector goes outwards
         far = ranges[k // columns, k % columns]
         if not far < math.inf:
@@ -131,14 +131,29 @@ def look(cells, first, spacing, eye, R_wc, rays, ranges, noise, limits, sectors,
         if kinds[k] >= RIM:
             sectors[s, WALL] = min(sectors[s, WALL], away)
             sectors[s, STOPPED] = 1.0
+        elif sectors[s, STOPPED] == 0.0 and z < sectors[s, LEVEL] - limits[0]:
+            # Down there; what is beyond a narrow hole goes on as if that were not there.
+            if away - sectors[s, FREE] <= limits[2]:
+                continue
+            sectors[s, STOPPED] = 1.0
+            if brink[s] >= 0 and meets_brink(cells, first, spacing, eye, sectors[s], way_x, way_y, limits):
+                sectors[s, WALL], kinds[brink[s]] = sectors[s, FREE], RIM
         elif sectors[s, STOPPED] == 0.0:
             # Nothing of a step's height stands between what was seen before and this.
             over = z - (away - sectors[s, FREE]) * ray[2] / level - max(sectors[s, LEVEL], z)
             passed = kinds[k] == GROUND and (away <= limits[3] or over <= limits[0])
             if passed and away > sectors[s, FREE]:
-                sectors[s, FREE], sectors[s, LEVEL] = away, z
+                sectors[s, FREE], sectors[s, LEVEL], brink[s] = away, z, k
             sectors[s, STOPPED] = 0.0 if passed else 1.0
     gather(eye, R_wc, rays, ranges, noise, spacing, kinds, sectors, points)
+
+
+@kernel
+def meets_brink(cells, first, spacing, eye, sector, way_x, way_y, limits):
+    """Whether the ground of a sector ends near by, in a drop."""
+    away, least = sector[FREE], sector[LEVEL] - limits[0]
+    x, y = eye[0] + away * way_x, eye[1] + away * way_y
+    return away <= limits[3] and is_brink(cells, first, spacing, x, y, way_x, way_y, least, limits[2])
 
 
 @kernel

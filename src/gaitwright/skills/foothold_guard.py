@@ -2,25 +2,33 @@
 
 import math
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from gaitwright.ground.elevation import is_known
-from gaitwright.ground.footholds import last_foothold
 from gaitwright.model.robot import Robot
 from gaitwright.numerics.geometry import GRAVITY, heading, rotation
-from gaitwright.signals import GroundMap, Route, Sensed, SkillCall
+from gaitwright.signals import Blocked, GroundMap, Route, Sensed, SkillCall
 from gaitwright.skills.library import find_skill, gait_of
+from gaitwright.skills.tracks import WIDEST, Track
 from gaitwright.stages import Chooser, Map, Now
 
-WIDEST = 1.1
-"""A stretch without a foothold up to this long is stepped over, in body heights."""
-ASIDE = 0.15
-"""Footholds this far beside a foot's track will do, in body heights."""
 BRAKING = 0.1
 """Deceleration that is counted on, as a share of gravity."""
 ROOM = 0.3
 """Room to keep before the last foothold, in body heights."""
+TURN = "turn-in-place"
+"""Who turns in place goes on with that until it looks along its path."""
+STANDS = 0.1
+"""Who must not go on comes to a stand first: slower than this, in √(g h)."""
+
+
+class Trouble(NamedTuple):
+    """Why a robot must not go on."""
+
+    said: str
+    blocked: Blocked
 
 
 @dataclass(frozen=True)
@@ -33,18 +41,29 @@ class FootholdGuard:
     def choose(self, route: Route, sensed: Sensed, now: Now = None, ground: Map = None) -> SkillCall:
         """The other's choice; `stop`, with a sentence, where it leads where no foot can stand. A person who
         steers may then choose another way."""
+        if now is not None and now.blocked is not None and self.moves(sensed):
+            return now
         call = self.chooser.choose(route, sensed, now, ground)
-        halt = None if ground is None else self.trouble(call, route, sensed, ground)
-        if halt is None:
+        trouble = None if ground is None else self.trouble(call, route, sensed, ground)
+        if trouble is None:
             return call
+        if route.path:  # its path may lead elsewhere than its nose
+            turning = self.chooser.choose(route, sensed, replace(now or call, skill=TURN), ground)
+            if turning.turn and not any(turning.velocity):
+                return turning
         gait = gait_of(find_skill("stop", self.robot), self.robot)
-        stop = replace(call, skill="stop", gait=gait, velocity=(0.0, 0.0), turn=0.0, because=halt)
-        return stop if route.attended else replace(stop, halt=halt)
+        stop = replace(call, skill="stop", gait=gait, velocity=(0.0, 0.0), turn=0.0, because=trouble.said)
+        return stop if route.attended else replace(stop, halt=trouble.said, blocked=trouble.blocked)
 
-    def trouble(self, call: SkillCall, route: Route, sensed: Sensed, ground: GroundMap) -> str | None:
+    def moves(self, sensed: Sensed) -> bool:
+        """Whether a robot has not come to a stand yet."""
+        fast = math.hypot(*sensed.velocity_w[:2].tolist())
+        return fast > STANDS * math.sqrt(GRAVITY * self.robot.height)
+
+    def trouble(self, call: SkillCall, route: Route, sensed: Sensed, ground: GroundMap) -> Trouble | None:
         """Why the robot must not go on with a call, or `None`."""
-        speed, grid = math.hypot(*call.velocity), ground.footholds
-        if speed <= 0.0 or not is_known(grid):
+        speed = math.hypot(*call.velocity)
+        if speed <= 0.0 or not is_known(ground.footholds):
             return None
         height = self.robot.height
         far = speed * call.gait.period + speed**2 / (2.0 * BRAKING * GRAVITY) + (ROOM + WIDEST) * height
@@ -56,12 +75,12 @@ class FootholdGuard:
         c, s = math.cos(yaw), math.sin(yaw)
         level = float(sensed.position_w[2]) - height
         for foot in self.robot.nominal_feet[:, :2] @ np.array([[c, s], [-s, c]]):
-            stops, last, rise = last_foothold(
-                grid, place + foot, level, way, far, ASIDE * height, ground.step, WIDEST * height, height
-            )
+            track = Track(ground, height, level, way)
+            stops, last, rise = track.followed(place + foot, far)
             if stops:
                 what = named(rise, ground.step, height)
-                return f"no foothold ahead: {what} begins {last:.2f} m ahead of a foot"
+                said = f"no foothold ahead: {what} begins {last:.2f} m ahead of a foot"
+                return Trouble(said, track.blocked_by(place + foot, last))
         return None
 
 
