@@ -1,6 +1,7 @@
 """The chooser's rules: turn first, then go, no faster than asked, and stand at the end."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,8 +10,8 @@ from hypothesis import strategies as st
 
 from gaitwright.errors import WrongUse
 from gaitwright.numerics.geometry import wrap, yaw_quaternion
-from gaitwright.signals import Route, Sensed, SkillCall
-from gaitwright.skills.chooser import KEEP_TURNING, TURN_FIRST, DefaultChooser, fixed_skill
+from gaitwright.signals import Route, Scan, Sensed, SkillCall
+from gaitwright.skills.chooser import CAREFUL, KEEP_TURNING, TURN_FIRST, DefaultChooser, fixed_skill
 from gaitwright.skills.library import LIBRARY, MANY_LEGGED, fastest, gait_of, speed_scale
 from oracles import robot_called
 
@@ -161,3 +162,16 @@ def test_a_fixed_skill_counts_sideways_speed_too() -> None:
     limit = fastest(LIBRARY["trot"], DOG)
     with pytest.raises(WrongUse):
         fixed_skill(DOG, "trot", 0.8 * limit, 0.8 * limit, 0.0, "numerical")
+
+
+@given(st.floats(0.0, 2.0), st.none() | st.floats(0.05, 1.0))
+def test_over_a_wide_gap_it_goes_foot_by_foot_no_faster_than_asked(gap: float, speed: float | None) -> None:
+    assume(abs(gap - CAREFUL) > 1e-6)
+    ahead = Scan(gap=gap * DOG.height)
+    call = CHOOSER.choose(replace(route((5.0, 0.0), speed=speed), ahead=ahead), sensed())
+    freely = CHOOSER.choose(route((5.0, 0.0), speed=speed), sensed())
+    if gap < CAREFUL:
+        assert call == freely
+    else:
+        assert call.skill == "walk" and call.velocity[0] <= freely.velocity[0] + 1e-12
+        assert "gap" in call.because
