@@ -12,7 +12,7 @@ from gaitwright.ground.solids import Cylinder
 from gaitwright.ground.terrain import Box, Flat
 from gaitwright.model.camera import Camera
 from gaitwright.model.kinematics import angles
-from gaitwright.perception.seeing import SeeingGround
+from gaitwright.perception.seeing import STEPS, SeeingGround
 from gaitwright.perception.seen_moving import HELD, LOOKS, Watched, told_apart
 from gaitwright.plant.eyes import Eyes
 from gaitwright.signals import GroundMap, Measured, Sight
@@ -41,7 +41,9 @@ def looked(
         measured = Measured.of_row(
             sensed.row, time=sensed.time, specific_force_b=(0.0, 0.0, 9.8), frame=eyes.see(sensed, k)
         )
-        _, ground, memory = perception.perceive(measured, memory)
+        for _ in STEPS:
+            _, ground, memory = perception.perceive(measured, memory)
+            measured = replace(measured, frame=None)
         grounds.append(ground)
     return grounds
 
