@@ -10,7 +10,7 @@ from gaitwright.ground.scene import load_scene
 from gaitwright.ground.terrain import rectangle
 from gaitwright.numerics.geometry import yaw_quaternion
 from gaitwright.perception.known_ground import map_of
-from gaitwright.signals import GroundMap, Moving, Route, Sensed, SkillCall
+from gaitwright.signals import Blocked, GroundMap, Moving, Route, Sensed, SkillCall
 from gaitwright.skills.chooser import HeldSkill, fixed_skill
 from gaitwright.skills.foothold_guard import FootholdGuard
 from gaitwright.skills.giving_way import AHEAD, HAIR, ROOM, STOPS, GivesWay
@@ -143,11 +143,14 @@ def test_it_does_not_step_where_no_foot_can_stand() -> None:
 
 
 def test_a_halt_before_what_moves_is_a_wait_and_one_before_a_wall_stays_one() -> None:
-    halting = GivesWay(HeldSkill(replace(TROT.skill_call, velocity=(0.0, 0.0), halt="a wall is ahead")), GO2)
+    blocked = Blocked(((0.6, 0.0),), 0.0, is_seen=True)
+    call = replace(TROT.skill_call, velocity=(0.0, 0.0), halt="a wall is ahead", blocked=blocked)
+    halting = GivesWay(HeldSkill(call), GO2)
     near, far = block(0.9, 0.0, (0.0, 0.3)), block(5.0, 3.0, (0.0, 0.3))
     assert halting.choose(ON, at(), None, among(far)).halt == "a wall is ahead"
     call = halting.choose(ON, at(), None, among(near))
     assert call.halt is None and call.yields and "waits" in call.because
+    assert call.blocked is None, "it goes away: nothing for the map"
 
 
 def test_a_thing_is_where_it_has_come_to_since_it_was_seen() -> None:

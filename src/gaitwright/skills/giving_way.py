@@ -155,7 +155,7 @@ class GivesWay:
     def stop(self, call: SkillCall, because: str) -> SkillCall:
         """A call that goes nowhere for now; the trip goes on."""
         gait = gait_of(find_skill("stop", self.robot), self.robot)
-        still = {"velocity": (0.0, 0.0), "turn": 0.0, "halt": None, "yields": True}
+        still = {"velocity": (0.0, 0.0), "turn": 0.0, "halt": None, "blocked": None, "yields": True}
         return replace(call, skill="stop", gait=gait, because=because, **still)
 
     def gap(
