@@ -134,7 +134,7 @@ def test_a_track_ends_before_a_step_that_is_too_high(share: float, off: float, w
     block = Box(2.0 * c, 2.0 * s, way, 2.0, 3.0, rise)
     ground = elevation_grid(Scene("block", Flat(), (block,), (-4.0, -4.0, 4.0, 4.0)), DOG)
     start = np.array([0.0, 0.0]) + off * np.array([-s, c])
-    stops, last, up = last_foothold(ground, start, 0.0, way, 1.8, 0.15 * H, step, stride, H)
+    stops, last, up, _ = last_foothold(ground, start, 0.0, way, 1.8, 0.15 * H, step, stride, H)
     if rise > OFF_PLANE * step:
         assert stops and 1.0 - 4.0 * ground.place[2] - 0.15 * H < last < 1.0
     assert stops == (rise > step)

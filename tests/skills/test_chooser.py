@@ -9,9 +9,11 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from gaitwright.errors import WrongUse
+from gaitwright.ground.scene import load_scene
 from gaitwright.numerics.geometry import wrap, yaw_quaternion
-from gaitwright.signals import Route, Scan, Sensed, SkillCall
-from gaitwright.skills.chooser import CAREFUL, KEEP_TURNING, TURN_FIRST, DefaultChooser, fixed_skill
+from gaitwright.perception.known_ground import map_of
+from gaitwright.signals import Route, Sensed, SkillCall
+from gaitwright.skills.chooser import KEEP_TURNING, TURN_FIRST, DefaultChooser, fixed_skill
 from gaitwright.skills.library import LIBRARY, MANY_LEGGED, fastest, gait_of, speed_scale
 from oracles import robot_called
 
@@ -164,14 +166,20 @@ def test_a_fixed_skill_counts_sideways_speed_too() -> None:
         fixed_skill(DOG, "trot", 0.8 * limit, 0.8 * limit, 0.0, "numerical")
 
 
-@given(st.floats(0.0, 2.0), st.none() | st.floats(0.05, 1.0))
-def test_over_a_wide_gap_it_goes_foot_by_foot_no_faster_than_asked(gap: float, speed: float | None) -> None:
-    assume(abs(gap - CAREFUL) > 1e-6)
-    ahead = Scan(gap=gap * DOG.height)
-    call = CHOOSER.choose(replace(route((5.0, 0.0), speed=speed), ahead=ahead), sensed())
-    freely = CHOOSER.choose(route((5.0, 0.0), speed=speed), sensed())
-    if gap < CAREFUL:
-        assert call == freely
-    else:
-        assert call.skill == "walk" and call.velocity[0] <= freely.velocity[0] + 1e-12
-        assert "gap" in call.because
+@pytest.mark.parametrize(("gap", "skill"), [(0.1, "trot"), (0.15, "trot"), (0.2, "walk"), (0.25, "walk")])
+def test_over_a_wide_gap_it_goes_foot_by_foot_no_faster_than_asked(gap: float, skill: str) -> None:
+    scene = load_scene(f"gap:{gap:g}")
+    edge = next(x for x in np.arange(0.0, 3.0, 0.01) if scene.height(x, 0.0) < 0.1)
+    for place, asked in ((edge - 0.5, skill), (edge + gap / 2.0, skill), (0.0, "trot")):
+        onwards = Route(((5.0, 0.0),), 5.0 - place, 0.5)
+        call = CHOOSER.choose(onwards, on_blocks(place), ground=map_of(scene, DOG))
+        assert call.skill == asked, place
+        assert call.velocity[0] <= (0.5 if asked == "trot" else 0.3)
+    creeping = Route(((5.0, 0.0),), 5.0, 0.1)
+    call = CHOOSER.choose(creeping, on_blocks(edge - 0.5), ground=map_of(scene, DOG))
+    assert call.velocity[0] <= 0.1 + 1e-12
+
+
+def on_blocks(x: float) -> Sensed:
+    """At its height over ground of 0.5 m."""
+    return replace(sensed(), position_w=np.array([x, 0.0, 0.5 + DOG.height]))

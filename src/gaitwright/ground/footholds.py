@@ -106,11 +106,11 @@ def last_foothold(ground, start, level, way, far, aside, step, stride, height):
 
     `start`: x, y; `level`: of the ground that the robot stands on; `way`: its direction [rad]; `far`: so far
     it goes, or nearly; footholds up to `aside` beside its track will do; a `stride` is the longest stretch
-    without one [m]. Gives whether something stops it, how far it is to the last foothold [m], and how much
-    higher the ground is behind it [m].
+    without one [m]. Gives whether something stops it, how far it is to the last foothold [m], how much higher
+    the ground is behind it [m], and the longest stretch that it steps over [m], rims among them.
     """
     ahead_x, ahead_y, spacing = math.cos(way), math.sin(way), ground.place[2]
-    last, allowed = 0.0, OFF_PLANE * step
+    last, allowed, firm, longest = 0.0, OFF_PLANE * step, 0.0, 0.0
     for i in range(math.ceil((far + stride) / spacing) + 1):
         at, found = i * spacing, False
         if at > far and last > far - NEARLY * height:
@@ -121,11 +121,13 @@ def last_foothold(ground, start, level, way, far, aside, step, stride, height):
             row, column = nearest(ground, x, y)
             wish = FootholdRequest(x, y, x, y, level, allowed, (0.0, 0.0), height, 0.0)
             if is_fit(ground, row, column, wish, 1.0):
+                if ground.edges[row, column] < RIM:
+                    firm, longest = at, max(longest, at - firm)
                 last, level, allowed, found = at, ground.heights[row, column], step, True
                 break
         if not found and at - last > stride:
             row, column = nearest(ground, start[0] + at * ahead_x, start[1] + at * ahead_y)
             rise = ground.heights[row, column] - level
             if at <= far or rise < -step:  # a path turns before a wall; a drop is no place to turn at
-                return True, last, rise
-    return False, last, 0.0
+                return True, last, rise, longest
+    return False, last, 0.0, longest

@@ -3,8 +3,9 @@
 import math
 from dataclasses import dataclass
 
+from gaitwright.ground.elevation import is_known
 from gaitwright.model.robot import Robot
-from gaitwright.signals import SHARP, Route, Sensed, SkillCall
+from gaitwright.signals import SHARP, GroundMap, Route, Sensed, SkillCall
 from gaitwright.skills.library import (
     Skill,
     check_speed,
@@ -14,14 +15,16 @@ from gaitwright.skills.library import (
     meant,
 )
 from gaitwright.skills.path_following import approach_speed, heading_error, turn_rate, wished_speed
+from gaitwright.skills.tracks import WIDEST, Track, feet_from
 from gaitwright.stages import Map, Now
 
 TURN_FIRST = SHARP
 """Farther off the path than this, the robot turns on the spot before it goes on."""
 KEEP_TURNING = math.radians(15)
 """A turn on the spot goes on until the path is this near."""
-CAREFUL = 0.55
-"""A wider gap is crossed by the calmest skill, in body heights: in a trot most fall that meet one of 0.7."""
+CAREFUL, AHEAD = 0.9, 1.5
+"""Over a longer stretch without a foothold it goes by its calmest skill, so far before it, in body heights:
+in a trot most fall that step over 1."""
 
 
 @dataclass(frozen=True)
@@ -45,12 +48,21 @@ class DefaultChooser:
         self.gait_for(wished)
         slowed = approach_speed(self.robot, route)
         because = f"{route.remaining:.1f} m to go" + (", slowing down" if slowed < wished else "")
-        gap = 0.0 if route.ahead is None else route.ahead.gap
-        if gap > CAREFUL * self.robot.height:
+        stretch = 0.0 if ground is None else self.stretch_ahead(ground, sensed)
+        if stretch > CAREFUL * self.robot.height:
             slowed = min(slowed, cruising(self.robot)[0][0])
-            because = f"foot by foot over a gap of {gap:.2f} m"
+            because = f"foot by foot over {stretch:.2f} m without a foothold"
         skill = self.gait_for(slowed)
         return self.call(skill.name, route, forward=slowed * math.cos(error), turn=turn, because=because)
+
+    def stretch_ahead(self, ground: GroundMap, sensed: Sensed) -> float:
+        """The longest stretch without a foothold that a foot steps over now, or before long [m]."""
+        if not is_known(ground.footholds):
+            return 0.0
+        height = self.robot.height
+        track = Track.of(ground, self.robot, sensed, (1.0, 0.0))
+        begins = feet_from(self.robot, sensed) - WIDEST * height * track.ahead
+        return max(track.followed(begin, (WIDEST + AHEAD) * height)[3] for begin in begins)
 
     def gait_for(self, speed: float) -> Skill:
         """The calmest skill for a speed [m/s], of those that a robot cruises with.

@@ -4,14 +4,12 @@ import math
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-import numpy as np
-
 from gaitwright.ground.elevation import is_known
 from gaitwright.model.robot import Robot
-from gaitwright.numerics.geometry import GRAVITY, heading, rotation
+from gaitwright.numerics.geometry import GRAVITY
 from gaitwright.signals import Blocked, GroundMap, Route, Sensed, SkillCall
 from gaitwright.skills.library import find_skill, gait_of
-from gaitwright.skills.tracks import WIDEST, Track
+from gaitwright.skills.tracks import WIDEST, Track, feet_from
 from gaitwright.stages import Chooser, Map, Now
 
 BRAKING = 0.1
@@ -70,17 +68,13 @@ class FootholdGuard:
         place = sensed.position_w[:2]
         if route.path:
             far = min(far, float(math.dist(place, route.path[0])))
-        yaw = heading(rotation(sensed.orientation_wb))
-        way = yaw + math.atan2(call.velocity[1], call.velocity[0])
-        c, s = math.cos(yaw), math.sin(yaw)
-        level = float(sensed.position_w[2]) - height
-        for foot in self.robot.nominal_feet[:, :2] @ np.array([[c, s], [-s, c]]):
-            track = Track(ground, height, level, way)
-            stops, last, rise = track.followed(place + foot, far)
+        track = Track.of(ground, self.robot, sensed, call.velocity)
+        for foot in feet_from(self.robot, sensed):
+            stops, last, rise, _ = track.followed(foot, far)
             if stops:
                 what = named(rise, ground.step, height)
                 said = f"no foothold ahead: {what} begins {last:.2f} m ahead of a foot"
-                return Trouble(said, track.blocked_by(place + foot, last))
+                return Trouble(said, track.blocked_by(foot, last))
         return None
 
 

@@ -8,7 +8,9 @@ import shapely
 from jaxtyping import Float
 
 from gaitwright.ground.footholds import BONE, last_foothold
-from gaitwright.signals import Blocked, GroundMap
+from gaitwright.model.robot import Robot
+from gaitwright.numerics.geometry import heading, rotation
+from gaitwright.signals import Blocked, GroundMap, Sensed
 
 WIDEST = 1.1
 """A stretch without a foothold up to this long is stepped over, in body heights."""
@@ -31,12 +33,18 @@ class Track(NamedTuple):
     way: float
     """World direction [rad]."""
 
+    @classmethod
+    def of(cls, ground: GroundMap, robot: Robot, sensed: Sensed, velocity: tuple[float, float]) -> "Track":
+        """Those of a robot that goes forward and left at a velocity [m/s]."""
+        way = heading(rotation(sensed.orientation_wb)) + math.atan2(velocity[1], velocity[0])
+        return cls(ground, robot.height, float(sensed.position_w[2]) - robot.height, way)
+
     @property
     def ahead(self) -> Float[np.ndarray, "2"]:
         """Its direction."""
         return np.array([math.cos(self.way), math.sin(self.way)])
 
-    def followed(self, start: Float[np.ndarray, "2"], far: float) -> tuple[bool, float, float]:
+    def followed(self, start: Float[np.ndarray, "2"], far: float) -> tuple[bool, float, float, float]:
         """How far a foot comes that goes from a place [m] so far (`last_foothold`)."""
         aside, stride = ASIDE * self.height, WIDEST * self.height
         ground, step = self.ground.footholds, self.ground.step
@@ -58,7 +66,7 @@ class Track(NamedTuple):
         across = side * np.array([-self.ahead[1], self.ahead[0]])
         for k in range(1, round(BESIDE / APART) + 1):
             start, before = foot + k * apart * across, last
-            stops, last, _ = self.followed(start, before + 3.0 * apart + WIDEST * self.height)
+            stops, last, *_ = self.followed(start, before + 3.0 * apart + WIDEST * self.height)
             if not stops or abs(last - before) > 2.0 * apart or not self.is_seen(start, last):
                 break
             points.append(start + last * self.ahead)
@@ -71,3 +79,10 @@ class Track(NamedTuple):
         away = np.linspace(last, last + WIDEST * self.height, LOOKED_AT)
         heights = self.ground.elevation.height(*(foot + away[:, None] * self.ahead).T)
         return bool(np.isnan(heights).mean() <= UNSEEN)
+
+
+def feet_from(robot: Robot, sensed: Sensed) -> Float[np.ndarray, "legs 2"]:
+    """From where the feet of a robot set out: under their hips, seen from above, world [m]."""
+    yaw = heading(rotation(sensed.orientation_wb))
+    c, s = math.cos(yaw), math.sin(yaw)
+    return sensed.position_w[:2] + robot.nominal_feet[:, :2] @ np.array([[c, s], [-s, c]])
