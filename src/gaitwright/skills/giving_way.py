@@ -128,8 +128,8 @@ class GivesWay:
         return FootholdGuard(self.chooser, self.robot)
 
     def others(self, call: SkillCall, now: Now) -> Iterator[Way]:
-        """Other ways to go on than a call, the calmest first; steps to the side to which one is under way
-        before those to the other."""
+        """Other ways to go on than a call, the calmest first; who is under way to a side does not turn to the
+        other: what moves is seen a little otherwise from look to look."""
         forward, left = call.velocity
         if any(call.velocity):
             for share in SLOWER:
@@ -145,7 +145,7 @@ class GivesWay:
             aside = (replace(call, velocity=(SLOWER[0] * forward, one)) for one in (side, -side))
             steps = [*(Way(one, "steps aside", True) for one in aside), *steps]
         under_way = now.velocity[1] if now is not None and now.yields else 0.0
-        yield from sorted(steps, key=lambda way: way.call.velocity[1] * under_way < 0.0)
+        yield from (way for way in steps if way.call.velocity[1] * under_way >= 0.0)
 
     def step(self, call: SkillCall, skill: str, velocity: tuple[float, float], does: str) -> Way:
         """A step out of the way."""
