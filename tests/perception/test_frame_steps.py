@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gaitwright.errors import WrongUse
 from gaitwright.ground.scene import load_scene
 from gaitwright.model.camera import Camera
 from gaitwright.perception.seeing import STEPS, Looked, SeeingGround
@@ -74,3 +75,10 @@ def test_what_feet_felt_counts_as_of_the_frame(begun: Looked) -> None:
     assert memory.looking.sensed.time == 0.1
     late = replace(measured(0.3, 0.104), frame=None)
     same(SEES.finished(SEES.perceive(late, memory)[2]).ground, SEES.finished(memory).ground)
+
+
+def test_a_frame_of_another_camera_is_refused(begun: Looked) -> None:
+    other = Eyes(replace(CAMERA, columns=32), SCENE).see(posed(GO2, SCENE, (0.0, 0.0)))
+    wrong = replace(measured(0.0, 0.1), frame=other)
+    with pytest.raises(WrongUse, match=r"a frame has \(48, 32\) ranges, and this camera \(48, 64\)"):
+        SEES.perceive(wrong, begun)

@@ -9,6 +9,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
+from gaitwright.errors import WrongUse
 from gaitwright.ground.elevation import BLIND, SPACING
 from gaitwright.ground.scene import Scene
 from gaitwright.model.camera import Camera
@@ -100,9 +101,9 @@ class SeeingGround:
         if memory is None:
             memory = self.begun(sensed)
             if measured.frame is not None:  # the first way is planned by what the first look shows
-                memory = self.finished(memory._replace(looking=Looking(measured.frame, sensed)))
+                memory = self.finished(self.begins(memory, measured.frame, sensed))
         elif measured.frame is not None:
-            memory = self.finished(memory)._replace(looking=Looking(measured.frame, sensed))
+            memory = self.begins(self.finished(memory), measured.frame, sensed)
         if memory.looking is not None:
             memory = STEPS[memory.looking.steps](self, memory, memory.looking)
         return sensed, memory.ground, memory._replace(state=state)
@@ -113,6 +114,15 @@ class SeeingGround:
         seen = standing(self.robot, sensed, lowest_points(self.robot, sensed), noise=noise)
         ground = replace(self.ground, elevation=SeenElevation(seen), footholds=footholds_of(seen))
         return Looked(seen, ground)
+
+    def begins(self, memory: Looked, frame: DepthFrame, sensed: Sensed) -> Looked:
+        """With a frame whose steps are still to be done. Raises `WrongUse` for one of another camera."""
+        pixels = self.camera.pixels
+        if frame.ranges.shape != pixels:
+            raise WrongUse(
+                f"a frame has {frame.ranges.shape} ranges, and this camera {pixels}: rows, columns"
+            )
+        return memory._replace(looking=Looking(frame, sensed))
 
     # --- a frame, step by step --------------------------------------------------------------------------
     def finished(self, memory: Looked) -> Looked:
