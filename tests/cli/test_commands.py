@@ -178,11 +178,15 @@ def test_runs_are_numbered_not_overwritten(tmp_path: Path, monkeypatch: pytest.M
     for name, little in (("SECONDS", 0.2), ("SCHOOL", 1), ("SKILLS", ())):
         monkeypatch.setattr(f"gaitwright.cli.demo.{name}", little)
     monkeypatch.setattr(trips, "illustrate", lambda *_: [])
-    assert [main(["demo"]), main(["demo"])] == [1, 1]  # nobody crosses the field in that time
+    kept = tmp_path / "runs" / "demo-001" / "report.json"
+    kept.parent.mkdir(parents=True)
+    kept.write_text("of an earlier run")
+    assert main(["demo"]) == 1  # nobody crosses the field in that time
     assert sorted(path.name for path in (tmp_path / "runs").iterdir()) == ["demo-001", "demo-002"]
-    left = {path.name for path in (tmp_path / "runs" / "demo-001").iterdir()}
+    assert kept.read_text() == "of an earlier run" and list(kept.parent.iterdir()) == [kept]
+    left = {path.name for path in (tmp_path / "runs" / "demo-002").iterdir()}
     assert {"first", "third", "fourth", "go2.skills", "map.png", "recording.npz", "report.json"} == left
-    book = Skillbook.load(tmp_path / "runs" / "demo-001" / "go2.skills")
+    book = Skillbook.load(tmp_path / "runs" / "demo-002" / "go2.skills")
     assert [notes.place for notes in book.maps] == ["blocks (seed 9)", "bugtrap (seed 8)"]
 
 
