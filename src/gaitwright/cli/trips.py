@@ -110,9 +110,8 @@ def set_up(
     with working(f"mapping scene {scene.name}", worth_a_line=None):
         sees = sight != "blind"
         brain = Brain.of(robot, scene, chooser, DT, distribution, sees=sees, sensing=sensing, camera=camera)
-        is_told = (
-            camera is None and not scene.movers
-        )  # a camera has seen nothing yet; what moves is in no map
+        # A camera has seen nothing yet, and what moves is in no map.
+        is_told = camera is None and not scene.movers
         true = brain.perception.ground if is_told else map_of(scene.at(0.0), robot)
         on_obstacle = is_blocked(true, half_width(robot), (x, y))
     if on_obstacle:

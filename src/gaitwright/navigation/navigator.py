@@ -128,12 +128,7 @@ class Navigator:
 
     def has_overshot(self, now: Moment, path: tuple[Point, ...]) -> bool:
         """Whether a corner that is near lies behind the robot, and it may not go on from here."""
-        if len(path) < 2:
-            return False
-        ahead = (path[0][0] - now.place[0]) * math.cos(now.yaw) + (path[0][1] - now.place[1]) * math.sin(
-            now.yaw
-        )
-        return ahead < 0.0 and math.dist(now.place, path[0]) < PASSED * self.robot.body_length
+        return len(path) > 1 and now.has_gone_by(path[0], PASSED * self.robot.body_length)
 
     # --- room to turn ---------------------------------------------------------------------------------
     @cached_property

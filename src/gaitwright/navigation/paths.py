@@ -27,7 +27,12 @@ def begin_of(start: Point, path: Sequence[Point], far: float) -> tuple[Point, ..
         leg = math.dist(here, point)
         if leg >= far:
             share = far / leg if leg > 0.0 else 0.0
-            return (*out, (here[0] + share * (point[0] - here[0]), here[1] + share * (point[1] - here[1])))
+            return (*out, part_way(here, point, share))
         out.append(point)
         far, here = far - leg, point
     return tuple(out)
+
+
+def part_way(here: Point, there: Point, share: float) -> Point:
+    """The place a share of the way to another."""
+    return here[0] + share * (there[0] - here[0]), here[1] + share * (there[1] - here[1])

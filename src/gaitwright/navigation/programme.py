@@ -7,19 +7,17 @@ import numpy as np
 
 from gaitwright.missions import Mission, Programme, Stop
 from gaitwright.model.robot import Robot
+from gaitwright.model.stopping import stopping_distance
 from gaitwright.navigation.known_field import is_within
 from gaitwright.navigation.learned_map import LearnedMap
-from gaitwright.navigation.paths import directions, length
+from gaitwright.navigation.paths import directions, length, part_way
 from gaitwright.navigation.planning import Point
 from gaitwright.navigation.reached import ARRIVED, PASSED, STOP_AT, has_arrived
 from gaitwright.navigation.travel import Moment, Travel
-from gaitwright.numerics.geometry import GRAVITY
 from gaitwright.signals import Route
 
 AHEAD = 1.5
 """The robot stops so many body lengths before what is in its way, and what it takes to slow down."""
-BRAKING = 0.1
-"""Deceleration that is counted on, as a share of gravity."""
 USUAL = 1.5
 """A robot that was told no speed goes at most so many body heights a second."""
 
@@ -83,9 +81,7 @@ def as_left(route: Route, travel: Travel, now: Moment) -> Route:
 
 def is_passed(now: Moment, point: Point, unit: float) -> bool:
     """Whether a robot may leave a point behind: it has come to it, or it lies behind it nearby."""
-    (x, y), away = now.place, math.dist(now.place, point)
-    behind = (x - point[0]) * math.cos(now.yaw) + (y - point[1]) * math.sin(now.yaw)
-    return away < ARRIVED * unit or (away < PASSED * unit and behind > 0.0)
+    return math.dist(now.place, point) < ARRIVED * unit or now.has_gone_by(point, PASSED * unit)
 
 
 def in_the_way(known: LearnedMap, route: Route, now: Moment, robot: Robot) -> str | None:
@@ -93,15 +89,10 @@ def in_the_way(known: LearnedMap, route: Route, now: Moment, robot: Robot) -> st
     (x, y), here = route.path[0], now.place
     far = math.dist(here, (x, y))
     speed = route.speed if route.speed is not None else USUAL * robot.height
-    look = AHEAD * robot.body_length + speed**2 / (2.0 * BRAKING * GRAVITY)
+    look = AHEAD * robot.body_length + stopping_distance(speed)
     share = min(1.0, look / far) if far > 0.0 else 0.0
-    if not known.is_cut((here, towards(here, (x, y), share))):
+    if not known.is_cut((here, part_way(here, (x, y), share))):
         return None
     parts = np.linspace(0.0, share, 41).tolist()
-    clear = next(part for part in parts if known.is_cut((here, towards(here, (x, y), part))))
+    clear = next(part for part in parts if known.is_cut((here, part_way(here, (x, y), part))))
     return f"something stands in the way to ({x:g}, {y:g}), {clear * far:.1f} m ahead"
-
-
-def towards(here: Point, there: Point, share: float) -> Point:
-    """The place a share of the way to another."""
-    return here[0] + share * (there[0] - here[0]), here[1] + share * (there[1] - here[1])

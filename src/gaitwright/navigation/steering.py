@@ -3,16 +3,14 @@
 import math
 
 from gaitwright.missions import Steering, Velocity
+from gaitwright.model.stopping import stopping_time
 from gaitwright.navigation.footprint import Footprint, drives, near
 from gaitwright.navigation.known_field import is_within
 from gaitwright.navigation.travel import Moment, Travel
-from gaitwright.numerics.geometry import GRAVITY
 from gaitwright.signals import Route
 
 REACTS = 0.3
 """A command goes on for so long before the robot slows down [s]."""
-BRAKING = 0.1
-"""Deceleration that is counted on, as a share of gravity."""
 SIDES = ("ahead", "to the left", "behind", "to the right")
 
 
@@ -34,7 +32,7 @@ def refused(velocity: Velocity, travel: Travel, now: Moment, body: Footprint) ->
     speed = math.hypot(velocity.forward, velocity.left)
     if speed == 0.0 and velocity.turn == 0.0:
         return None
-    seconds = REACTS + speed / (2.0 * BRAKING * GRAVITY)
+    seconds = REACTS + stopping_time(speed)
     pieces = near(travel.known.pieces, now.place, body.radius + speed * seconds)
     lasts = drives(pieces, (*now.place, now.yaw), velocity, seconds, body)
     towards = math.atan2(velocity.left, velocity.forward)

@@ -58,6 +58,12 @@ class Moment(NamedTuple):
         x, y, _ = sensed.position_w.tolist()
         return cls((x, y), float(heading(rotation(sensed.orientation_wb))), sensed.time, ground)
 
+    def has_gone_by(self, point: Point, near: float) -> bool:
+        """Whether a place lies behind the robot, and so near to it [m]."""
+        dx, dy = self.place[0] - point[0], self.place[1] - point[1]
+        behind = dx * math.cos(self.yaw) + dy * math.sin(self.yaw)
+        return math.dist(self.place, point) < near and behind > 0.0
+
 
 def found_blocked(travel: Travel, blocked: Blocked | None) -> Travel:
     """With what feet could not go on over in the map."""

@@ -4,16 +4,18 @@ import math
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
+import numpy as np
+from jaxtyping import Float
+
 from gaitwright.ground.elevation import is_known
 from gaitwright.model.robot import Robot
+from gaitwright.model.stopping import stopping_distance
 from gaitwright.numerics.geometry import GRAVITY
 from gaitwright.signals import Blocked, GroundMap, Route, Sensed, SkillCall
 from gaitwright.skills.library import find_skill, gait_of
 from gaitwright.skills.tracks import WIDEST, Track, feet_from
 from gaitwright.stages import Chooser, Map, Now
 
-BRAKING = 0.1
-"""Deceleration that is counted on, as a share of gravity."""
 ROOM = 0.3
 """Room to keep before the last foothold, in body heights."""
 TURN = "turn-in-place"
@@ -23,10 +25,26 @@ STANDS = 0.1
 
 
 class Trouble(NamedTuple):
-    """Why a robot must not go on."""
+    """Why a robot must not go on: a foot that finds no place to stand."""
 
-    said: str
-    blocked: Blocked
+    track: Track
+    foot: Float[np.ndarray, "2"]
+    """From where it is followed [m]."""
+    last: float
+    """How far it is to its last foothold [m]."""
+    rise: float
+    """How much higher the ground is behind that [m]."""
+
+    @property
+    def said(self) -> str:
+        """The trouble as a sentence."""
+        what = named(self.rise, self.track.ground.step, self.track.height)
+        return f"no foothold ahead: {what} begins {self.last:.2f} m ahead of a foot"
+
+    @property
+    def blocked(self) -> Blocked:
+        """What stops the foot, as far as it goes on: found out when it is asked for, it takes some time."""
+        return self.track.blocked_by(self.foot, self.last)
 
 
 @dataclass(frozen=True)
@@ -64,7 +82,7 @@ class FootholdGuard:
         if speed <= 0.0 or not is_known(ground.footholds):
             return None
         height = self.robot.height
-        far = speed * call.gait.period + speed**2 / (2.0 * BRAKING * GRAVITY) + (ROOM + WIDEST) * height
+        far = speed * call.gait.period + stopping_distance(speed) + (ROOM + WIDEST) * height
         place = sensed.position_w[:2]
         if route.path:
             far = min(far, float(math.dist(place, route.path[0])))
@@ -72,9 +90,7 @@ class FootholdGuard:
         for foot in feet_from(self.robot, sensed):
             stops, last, rise, _ = track.followed(foot, far)
             if stops:
-                what = named(rise, ground.step, height)
-                said = f"no foothold ahead: {what} begins {last:.2f} m ahead of a foot"
-                return Trouble(said, track.blocked_by(foot, last))
+                return Trouble(track, foot, last, rise)
         return None
 
 
