@@ -1,0 +1,24 @@
+// The shell: a bar above, docks left and right, the views between them, a bar below.
+
+import { panels } from "../panels";
+import type { Source } from "../source";
+import { Stage } from "../view/stage";
+import { BottomBar } from "./bottom-bar";
+import { Dock } from "./dock";
+import { TopBar } from "./top-bar";
+import { dockWidth } from "./docks";
+
+export function App({ source }: { source: Source }) {
+  const style = { "--left": `${dockWidth("left")}px`, "--right": `${dockWidth("right")}px` };
+  return (
+    <div class="app" style={style} data-testid="app">
+      <TopBar source={source} />
+      <Dock side="left" panels={panels} source={source} />
+      <main class="middle">
+        <Stage source={source} />
+      </main>
+      <Dock side="right" panels={panels} source={source} />
+      <BottomBar source={source} />
+    </div>
+  );
+}
