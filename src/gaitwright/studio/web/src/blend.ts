@@ -3,7 +3,7 @@
 import type { Layout } from "./layout";
 
 const TURNS = ["orientation_wb", "reference_orientation_wb"];
-const SWITCHES = ["stance", "driver"];
+const SWITCHES = ["stance", "driver", "footholds_w"];
 
 export class Blend {
   private readonly turns: number[];

@@ -115,6 +115,9 @@ export interface Status {
   watchers: number;
   recording: boolean;
   obstacle: string;
+  /** the skill that a person holds; "": rules choose */
+  held?: string;
+  setup?: { robot: string; scene: string; seed: number; sight: "known" | "camera" };
   share: Record<string, number>;
 }
 
@@ -124,6 +127,10 @@ export interface Thing {
   y: number;
   z: number;
   yaw: number;
+  /** Sizes, where it is something that moves by itself. */
+  lx?: number;
+  ly?: number;
+  lz?: number;
 }
 
 export interface Moved {
@@ -138,11 +145,11 @@ export interface Scan {
   cog: Vec3;
   reach: Vec3[][];
   critical: boolean[];
-  margin: number;
+  margin: number | null;
   roll: number;
   pitch: number;
-  slope: number[];
-  elevation: number[];
+  slope: (number | null)[];
+  elevation: (number | null)[];
 }
 
 export interface Seen {
@@ -155,7 +162,11 @@ export interface Seen {
   /** base64 of float32, rows along y; NaN: unknown */
   heights: string;
   obstacles: Vec2[][];
-  roads: [Vec2, Vec2][];
+  roads?: Vec2[][];
+  /** x0, y0, x1, y1 */
+  walls?: [number, number, number, number][];
+  /** ways that it walked */
+  walked?: Vec2[][];
 }
 
 export interface Tree {
