@@ -68,6 +68,10 @@ export class Live implements Source {
     return this.smooth?.newest?.rows.length ?? 0;
   }
 
+  now(): number {
+    return this.histories[0]?.last() ?? 0;
+  }
+
   latest(robot: number): Float32Array | null {
     return this.smooth?.newest?.rows[robot] ?? null;
   }

@@ -31,6 +31,8 @@ export interface Source {
   /** Changes once per frame that came (live) or per picture drawn (replay): cheap to watch, carries nothing. */
   readonly beat: ReadonlySignal<number>;
 
+  /** Time of what is shown now [s]. */
+  now(): number;
   /** Number of robots in the newest frame. */
   readonly count: number;
   /** The newest row of a robot, as a view; `null` before the first. */
