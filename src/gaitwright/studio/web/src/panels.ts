@@ -1,0 +1,24 @@
+// The panels of the docks. A panel is registered by one line here.
+
+import type { ComponentType } from "preact";
+import { DrivePanel } from "./drive/panel";
+import { WorldPanel } from "./drive/world-panel";
+import { PlotsPanel } from "./plots/panel";
+import type { Source } from "./source";
+import { StatusPanel } from "./state/panel";
+
+export interface Panel {
+  id: string;
+  title: string;
+  dock: "left" | "right";
+  view: ComponentType<{ source: Source }>;
+  /** Whether it makes sense for a recording, too. */
+  replay?: boolean;
+}
+
+export const panels: Panel[] = [
+  { id: "drive", title: "Drive", dock: "left", view: DrivePanel },
+  { id: "world", title: "World", dock: "left", view: WorldPanel },
+  { id: "status", title: "Status", dock: "right", view: StatusPanel },
+  { id: "plots", title: "Plots", dock: "right", view: PlotsPanel, replay: true },
+];

@@ -1,0 +1,314 @@
+// The studio's protocol, version 1: what server and page say to each other.
+// Lengths m, angles rad, world axes x forward, y left, z up; quaternions (w, x, y, z).
+
+export type Vec2 = [number, number];
+export type Vec3 = [number, number, number];
+export type Quat = [number, number, number, number];
+
+export interface Column {
+  name: string;
+  size: number;
+}
+
+export interface Mesh {
+  /** base64 of little-endian float32 x, y, z … */
+  points: string;
+  /** base64 of uint32, three per triangle */
+  indices: string;
+}
+
+export interface Robot {
+  name: string;
+  legs: string[];
+  hip: Vec3[];
+  frame: Quat[];
+  offset: [Vec3, Vec3, Vec3][];
+  sign: number[];
+  foot_radius: number[];
+  trunk: [Vec3, Vec3];
+  tau_max: Vec3[];
+  q_min: Vec3[];
+  q_max: Vec3[];
+  height: number;
+  mass: number;
+}
+
+export interface Box {
+  id: string | number;
+  x: number;
+  y: number;
+  /** of the centre */
+  z: number;
+  lx: number;
+  ly: number;
+  lz: number;
+  yaw: number;
+  fixed: boolean;
+}
+
+export interface Sphere {
+  x: number;
+  y: number;
+  z: number;
+  radius: number;
+}
+
+export type Mode = "guide" | "apprentice" | "plan";
+
+export interface Choices {
+  robots: string[];
+  scenes: { name: string; about: string }[];
+  skills: string[];
+  drivers: string[];
+  modes: Mode[];
+  cycles: string[];
+}
+
+export interface Hello {
+  say: "hello";
+  version: number;
+  role: "driver" | "watcher";
+  columns: Column[];
+  choices: Choices;
+}
+
+export interface World {
+  say: "world";
+  scene: string;
+  seed: number;
+  robots: Robot[];
+  ground: Mesh;
+  boxes: Box[];
+  spheres: Sphere[];
+  meshes: Mesh[];
+  bounds: [number, number, number, number];
+  start: Vec3;
+  goal: Vec2 | null;
+}
+
+export interface Status {
+  say: "status";
+  time: number;
+  paused: boolean;
+  pace: number;
+  real_time: number;
+  mode: Mode;
+  /** the driver asked for */
+  driver: string;
+  /** who has the joints now */
+  controller: string;
+  skill: string;
+  /** asked for: forward, left, turn */
+  velocity: Vec3;
+  because: string;
+  rule: string;
+  route: Vec2[];
+  goal: Vec2 | null;
+  no_way: string | null;
+  pause: string | null;
+  halt: string | null;
+  over: string | null;
+  arrived: boolean;
+  fell: boolean;
+  faults: string[];
+  has_driver: boolean;
+  watchers: number;
+  recording: boolean;
+  obstacle: string;
+  /** the skill that a person holds; "": rules choose */
+  held?: string;
+  setup?: { robot: string; scene: string; seed: number; sight: "known" | "camera" };
+  share: Record<string, number>;
+}
+
+export interface Thing {
+  id: string | number;
+  x: number;
+  y: number;
+  z: number;
+  yaw: number;
+  /** Sizes, where it is something that moves by itself. */
+  lx?: number;
+  ly?: number;
+  lz?: number;
+}
+
+export interface Moved {
+  say: "moved";
+  things: Thing[];
+}
+
+export interface Scan {
+  say: "scan";
+  support: Vec3[];
+  predicted: Vec3[];
+  cog: Vec3;
+  reach: Vec3[][];
+  critical: boolean[];
+  margin: number | null;
+  roll: number;
+  pitch: number;
+  slope: (number | null)[];
+  elevation: (number | null)[];
+}
+
+export interface Seen {
+  say: "seen";
+  x: number;
+  y: number;
+  spacing: number;
+  rows: number;
+  columns: number;
+  /** base64 of float32, rows along y; NaN: unknown */
+  heights: string;
+  obstacles: Vec2[][];
+  roads?: Vec2[][];
+  /** x0, y0, x1, y1 */
+  walls?: [number, number, number, number][];
+  /** ways that it walked */
+  walked?: Vec2[][];
+}
+
+export interface Tree {
+  name: string;
+  kind: string;
+  values: string[] | null;
+  unit: string;
+}
+
+export interface Condition {
+  tree: string;
+  lower: number | null;
+  upper: number | null;
+  certain_lower: number | null;
+  certain_upper: number | null;
+  values: string[] | null;
+}
+
+export interface Rule {
+  name: string;
+  action: string;
+  skill: string;
+  status: string;
+  sentence: string;
+  firmness: number;
+  conditions: Condition[];
+  history: { sentence: string }[];
+}
+
+export interface Lesson {
+  id: number;
+  rule: string;
+  given: string;
+  about: string;
+}
+
+export interface Rules {
+  say: "rules";
+  trees: Tree[];
+  rules: Rule[];
+  lessons: Lesson[];
+}
+
+export interface Why {
+  say: "why";
+  id: number;
+  sentences: string[];
+}
+
+export interface Tried {
+  say: "tried";
+  id: number;
+  lesson: number;
+  sentence: string;
+  followed: boolean;
+  stretches: string[];
+  broken: string[];
+  mended: string[];
+}
+
+export type CurveKind = "cycle" | "torque" | "angle";
+
+/** A curve with its limits; the editor knows the fields of each kind. */
+export interface Curve {
+  say: "curve";
+  kind: CurveKind;
+  skill: string;
+  leg: string | number;
+  points: number[][];
+  measured: number[][];
+  undo: number | boolean;
+  redo: number | boolean;
+  edited: boolean;
+  [limit: string]: unknown;
+}
+
+export interface Recordings {
+  say: "recordings";
+  names: { name: string; seconds: number; bytes: number }[];
+}
+
+export interface Done {
+  say: "done";
+  id: number;
+}
+
+export interface Refused {
+  say: "refused";
+  id?: number;
+  because: string;
+}
+
+export type FromServer =
+  | Hello | World | Status | Moved | Scan | Seen | Rules | Why | Tried | Curve | Recordings | Done | Refused;
+
+export type Command =
+  | { do: "go"; x: number; y: number; then?: boolean }
+  | { do: "steer"; forward: number; left: number; turn: number }
+  | { do: "skill"; name: string; speed?: number }
+  | { do: "drive"; driver: string }
+  | { do: "mode"; mode: Mode }
+  | { do: "step"; ticks: number }
+  | { do: "pace"; factor: number }
+  | { do: "reset"; robot?: string; scene?: string; seed?: number; sight?: "known" | "camera"; driver?: string }
+  | { do: "push"; impulse: number; direction: number }
+  | { do: "place"; x: number; y: number; lx: number; ly: number; height: number; yaw: number }
+  | { do: "move"; thing: string | number; x: number; y: number; yaw?: number }
+  | { do: "remove"; thing: string | number }
+  | { do: "record"; on: boolean }
+  | { do: "right"; skill: string; speed?: number; turn?: number; about?: string; name?: string }
+  | { do: "forget"; lesson: number }
+  | { do: "why"; rule?: string }
+  | { do: "order"; rules: string[] }
+  | { do: "curve"; kind: CurveKind; skill: string; leg: string | number }
+  | { do: "edit"; kind: CurveKind; skill: string; leg: string | number; points: number[][]; mirror: boolean }
+  | {
+      do: "stand" | "pause" | "resume" | "abort" | "take" | "release" | "keep" | "back" | "ok" | "undo" | "redo"
+        | "recordings";
+    };
+
+export type Answer = { done: true } | { done: false; because: string };
+
+/** What a replay page carries in `<script type="application/json" id="recording">`. */
+export interface Embedded {
+  title: string;
+  world: World;
+  columns: Column[];
+  drivers: string[];
+  /** rows per second */
+  rate: number;
+  count: number;
+  /** base64 of deflate-raw-compressed float32 */
+  rows: string;
+  events: ReplayEvent[];
+  report: Record<string, unknown>;
+  movers?: unknown;
+}
+
+export interface ReplayEvent {
+  time: number;
+  skill: string;
+  driver: string;
+  because: string;
+  rule: string;
+}

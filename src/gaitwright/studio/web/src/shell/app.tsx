@@ -1,0 +1,29 @@
+// The shell: a bar above, docks left and right, the views between them, a bar below.
+
+import { useMemo } from "preact/hooks";
+import { tools } from "../drive/hand";
+import { useHands } from "../drive/panel";
+import { panels } from "../panels";
+import type { Source } from "../source";
+import { Stage } from "../view/stage";
+import { BottomBar } from "./bottom-bar";
+import { Dock } from "./dock";
+import { TopBar } from "./top-bar";
+import { dockWidth } from "./docks";
+
+export function App({ source }: { source: Source }) {
+  useHands(source);
+  const hands = useMemo(() => tools(source), [source]);
+  const style = { "--left": `${dockWidth("left")}px`, "--right": `${dockWidth("right")}px` };
+  return (
+    <div class="app" style={style} data-testid="app">
+      <TopBar source={source} />
+      <Dock side="left" panels={panels} source={source} />
+      <main class="middle">
+        <Stage source={source} tools={hands} />
+      </main>
+      <Dock side="right" panels={panels} source={source} />
+      <BottomBar source={source} />
+    </div>
+  );
+}

@@ -1,0 +1,111 @@
+// The bar above: who has authority over the joints, always; mode and driver; the link; the theme.
+
+import type { Mode } from "../protocol";
+import type { Source } from "../source";
+import { driverColour, skillColour } from "../ui/colours";
+import { Segmented, Select } from "../ui/controls";
+import { Icon } from "../ui/icons";
+import { switchTheme, theme } from "./theme";
+
+export function TopBar({ source }: { source: Source }) {
+  const world = source.world.value;
+  return (
+    <header class="top-bar" data-testid="top-bar">
+      <span class="brand">Gaitwright</span>
+      <span class="scene" data-testid="scene">
+        {world ? world.scene : "…"}
+        {world && world.robots.length > 0 && <span class="faint"> · {nameOf(world.robots)}</span>}
+      </span>
+      <Authority source={source} />
+      <span class="spring" />
+      {source.kind === "live" && <Choices source={source} />}
+      {source.kind === "live" && <LinkState source={source} />}
+      <button class="icon" title="Light or dark" data-testid="theme" onClick={switchTheme}>
+        <Icon name={theme.value === "dark" ? "sun" : "moon"} />
+      </button>
+    </header>
+  );
+}
+
+function nameOf(robots: { name: string }[]): string {
+  return robots.length === 1 ? robots[0].name : `${robots.length} robots`;
+}
+
+/** Who computes the torques now. */
+function Authority({ source }: { source: Source }) {
+  const status = source.status.value;
+  const controller = status?.controller ?? "";
+  const asked = status && status.driver !== controller ? status.driver : "";
+  return (
+    <div
+      class="authority"
+      data-testid="authority"
+      data-controller={controller}
+      style={{ "--who": driverColour(controller) }}
+    >
+      <span class="lamp" />
+      <span class="authority-label">Joints</span>
+      <strong data-testid="controller">{controller || "nobody"}</strong>
+      {asked && <span class="faint asked">for {asked}</span>}
+      {status?.skill && (
+        <span class="chip" data-testid="skill" style={{ "--chip": skillColour(status.skill) }}>
+          {status.skill}
+        </span>
+      )}
+    </div>
+  );
+}
+
+function Choices({ source }: { source: Source }) {
+  const hello = source.hello.value;
+  const status = source.status.value;
+  if (!hello || !status) return null;
+  const watching = hello.role === "watcher";
+  return (
+    <>
+      <Segmented<Mode>
+        id="mode"
+        choices={hello.choices.modes.map((mode) => ({ value: mode, title: MODES[mode] }))}
+        value={status.mode}
+        choose={(mode) => void source.send({ do: "mode", mode })}
+        disabled={watching}
+      />
+      <Select
+        id="driver"
+        title="Who is to compute the torques"
+        choices={hello.choices.drivers}
+        value={status.driver}
+        choose={(driver) => void source.send({ do: "drive", driver })}
+        disabled={watching}
+      />
+    </>
+  );
+}
+
+const MODES: Record<Mode, string> = {
+  guide: "Compose a motion and play it back",
+  apprentice: "Let it be learned",
+  plan: "Give a destination",
+};
+
+function LinkState({ source }: { source: Source }) {
+  const link = source.link.value;
+  const role = source.hello.value?.role;
+  const free = source.status.value?.has_driver === false;
+  return (
+    <span class="link" data-testid="link" data-link={link}>
+      <span class={`dot ${link}`} />
+      {link !== "open" ? (
+        link === "lost" ? "no connection" : "connecting"
+      ) : role === "driver" ? (
+        <button title="Let somebody else drive" data-testid="release" onClick={() => void source.send({ do: "release" })}>
+          driving
+        </button>
+      ) : (
+        <button title="Become the driver" data-testid="take" onClick={() => void source.send({ do: "take" })}>
+          {free ? "take over" : "watching · take over"}
+        </button>
+      )}
+    </span>
+  );
+}

@@ -1,0 +1,49 @@
+// Where everything that is shown comes from: a live studio, or a recording. Panels read it and send commands.
+
+import type { ReadonlySignal } from "@preact/signals";
+import type { History } from "./history";
+import type { Layout } from "./layout";
+import type {
+  Answer, Command, Curve, Hello, Moved, Recordings, Rules, Scan, Seen, Status, Tried, Why, World,
+} from "./protocol";
+
+export type Link = "connecting" | "open" | "lost";
+
+export interface Source {
+  readonly kind: "live" | "replay";
+  readonly link: ReadonlySignal<Link>;
+  readonly hello: ReadonlySignal<Hello | null>;
+  readonly world: ReadonlySignal<World | null>;
+  readonly status: ReadonlySignal<Status | null>;
+  readonly moved: ReadonlySignal<Moved | null>;
+  readonly scan: ReadonlySignal<Scan | null>;
+  readonly seen: ReadonlySignal<Seen | null>;
+  readonly rules: ReadonlySignal<Rules | null>;
+  readonly why: ReadonlySignal<Why | null>;
+  readonly tried: ReadonlySignal<Tried | null>;
+  readonly curve: ReadonlySignal<Curve | null>;
+  readonly recordings: ReadonlySignal<Recordings | null>;
+  /** The last refusal, for the bar below; "" where there is none. */
+  readonly refusal: ReadonlySignal<string>;
+
+  /** Columns of a row; `null` before they are known. */
+  readonly layout: ReadonlySignal<Layout | null>;
+  /** Changes once per frame that came (live) or per picture drawn (replay): cheap to watch, carries nothing. */
+  readonly beat: ReadonlySignal<number>;
+
+  /** Time of what is shown now [s]. */
+  now(): number;
+  /** Number of robots in the newest frame. */
+  readonly count: number;
+  /** The newest row of a robot, as a view; `null` before the first. */
+  latest(robot: number): Float32Array | null;
+  /** The row to draw at a time of the page's clock [ms], between the frames around it; false where there is none. */
+  sample(robot: number, now: number, out: Float32Array): boolean;
+  /** The last 60 s of a robot (a replay: all of it). */
+  history(robot: number): History | null;
+
+  /** Sends a command. A replay refuses. */
+  send(command: Command): Promise<Answer>;
+  /** Sends without asking for an answer: for what comes many times a second. */
+  tell(command: Command): void;
+}

@@ -1,0 +1,54 @@
+// All overlays, switched by their names.
+
+import { Group } from "three";
+import type { World } from "../../protocol";
+import type { Engine } from "../engine";
+import { type OverlayId, shown } from "../settings";
+import { Footholds } from "./footholds";
+import { Forces } from "./forces";
+import { Ghost } from "./ghost";
+import type { Moment, Overlay } from "./overlay";
+import { Reach } from "./reach";
+import { RouteLine } from "./route";
+import { SeenGround } from "./seen";
+import { Support } from "./support";
+import { VelocityArrow } from "./velocity";
+
+export class Overlays {
+  readonly group = new Group();
+  private readonly all: Record<OverlayId, Overlay> = {
+    forces: new Forces(),
+    support: new Support(),
+    footholds: new Footholds(),
+    route: new RouteLine(),
+    velocity: new VelocityArrow(),
+    ghost: new Ghost(),
+    seen: new SeenGround(),
+    reach: new Reach(),
+  };
+
+  constructor(private readonly engine: Engine) {
+    for (const { object } of Object.values(this.all)) this.group.add(object);
+  }
+
+  arrange(world: World): void {
+    for (const overlay of Object.values(this.all)) overlay.arrange?.(world);
+  }
+
+  update(_now: number): void {
+    const { engine } = this;
+    const layout = engine.source.layout.peek();
+    const row = engine.row(engine.watched);
+    const pose = engine.poses[engine.watched];
+    this.group.visible = Boolean(layout && row && pose);
+    if (!layout || !row || !pose) return;
+    const moment: Moment = {
+      source: engine.source, layout, row, pose, height: (x, y) => engine.height(x, y),
+    };
+    const on = shown.peek();
+    for (const [id, overlay] of Object.entries(this.all) as [OverlayId, Overlay][]) {
+      overlay.object.visible = on[id] ?? false;
+      if (on[id]) overlay.update(moment);
+    }
+  }
+}

@@ -1,0 +1,40 @@
+// A line on the ground with a width in metres: a strip of triangles.
+
+import {
+  BufferAttribute, BufferGeometry, type ColorRepresentation, DoubleSide, Mesh, MeshBasicMaterial,
+} from "three";
+
+export class Ribbon {
+  readonly mesh: Mesh<BufferGeometry, MeshBasicMaterial>;
+
+  constructor(colour: ColorRepresentation, private readonly wide: number, opacity = 1) {
+    const material = new MeshBasicMaterial({
+      color: colour, side: DoubleSide, transparent: opacity < 1, opacity, depthWrite: opacity === 1,
+      polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2, toneMapped: false,
+    });
+    this.mesh = new Mesh(new BufferGeometry(), material);
+    this.mesh.frustumCulled = false;
+  }
+
+  set(points: readonly (readonly number[])[], closed = false): void {
+    const line = closed && points.length > 2 ? [...points, points[0]] : points;
+    const at: number[] = [];
+    for (let k = 0; k + 1 < line.length; k++) {
+      const [a, b] = [line[k], line[k + 1]];
+      const long = Math.hypot(b[0] - a[0], b[1] - a[1]);
+      if (long < 1e-6) continue;
+      const half = this.wide / 2;
+      const [ux, uy] = [((b[0] - a[0]) / long) * half, ((b[1] - a[1]) / long) * half];
+      // each piece a little longer than it is, so that corners close
+      const corners = [
+        [a[0] - ux - uy, a[1] - uy + ux, a[2]], [a[0] - ux + uy, a[1] - uy - ux, a[2]],
+        [b[0] + ux + uy, b[1] + uy - ux, b[2]], [b[0] + ux - uy, b[1] + uy + ux, b[2]],
+      ];
+      for (const corner of [0, 1, 2, 0, 2, 3]) at.push(...corners[corner]);
+    }
+    this.mesh.geometry.dispose();
+    this.mesh.geometry = new BufferGeometry();
+    this.mesh.geometry.setAttribute("position", new BufferAttribute(new Float32Array(at), 3));
+    this.mesh.visible = at.length > 0;
+  }
+}
