@@ -1,0 +1,1 @@
+"""The studio: what a person sees and changes while a robot walks."""
