@@ -105,8 +105,8 @@ class AngleCurve:
         own = np.array([min(max(row[0], 0.0), 1.0)])
         before = walk.path(self.cycle, self.leg, own)
         was, now = walk.feet(self.leg, np.stack([walk.angles(self.leg, before)[0], row[1:]]))
-        aside = abs(float(np.cross(walk.way, (now - was)[:2])))
-        if aside > ASIDE * float(np.linalg.norm(now - was)):
+        (x, y, _), (along, across) = now - was, walk.way
+        if abs(along * y - across * x) > ASIDE * float(np.linalg.norm(now - was)):
             return None
         forward = float(now[:2] @ walk.way) / walk.stride if walk.stride else float(before[0, 0])
         return [s, forward + (1.0 - walk.gait.duty) * (s - 0.5), float(now[2]) / walk.robot.height]

@@ -9,6 +9,7 @@ import numpy as np
 from gaitwright.control.alarm import Alarm
 from gaitwright.control.balance import Balance
 from gaitwright.control.takeover import Takeover
+from gaitwright.errors import WrongUse
 from gaitwright.gait.coordinator import Coordinator, Cycle
 from gaitwright.gait.leg_cycles.files import cycle_of
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle, tabulated_legs
@@ -30,8 +31,9 @@ class Parts(NamedTuple):
 
     @classmethod
     def of(cls, brain: Brain) -> "Parts":
-        """Those of a brain that goes by leg cycles."""
-        assert isinstance(brain.coordinator, Coordinator), "a planned climb has no leg cycles"
+        """Those of a brain. Raises `WrongUse` for one that does not go by leg cycles."""
+        if not isinstance(brain.coordinator, Coordinator):
+            raise WrongUse("a climb that was planned ahead has no curves to edit")
         return cls(brain.coordinator, brain.controllers, brain.takeover, brain.alarm, brain.balance)
 
     def within(self, brain: Brain) -> Brain:
@@ -77,16 +79,16 @@ class Change:
 
     def after(self, session: Session) -> None:
         """Goes on with the change; to be called after every step, and before the first one."""
-        state = session.mind.memories.gait.state
-        if self.under_way is not None:
-            self.go_on(session, state)
-        elif self.wanted is not None and self.is_time(session, state):
-            self.under_way, self.wanted = self.wanted, None
-            coordinator = session.brain.coordinator
-            assert isinstance(coordinator, Coordinator)
-            self.before, self.late = coordinator.cycles, (True,) * len(state.mode)
-            self.go_on(session, state)
-        self.phase = float(state.phase[0])
+        if self.is_pending:
+            state = session.mind.memories.gait.state
+            if self.under_way is None and self.wanted is not None and self.is_time(session, state):
+                self.under_way, self.wanted = self.wanted, None
+                self.before = Parts.of(session.brain).coordinator.cycles
+                self.late = (True,) * len(state.mode)
+            if self.under_way is not None:
+                self.go_on(session, state)
+        if session.lap is not None:
+            self.phase = session.lap.target.phase
 
     def is_time(self, session: Session, state: GaitState) -> bool:
         """Whether a new cycle begins, or none is under way; no leg may be amid a terrain operator."""
@@ -95,7 +97,7 @@ class Change:
         if state.operator.max() > 0.0:
             return False
         begins = float(state.phase[0]) < self.phase
-        return begins or state.clock[1] >= 1.0
+        return begins or bool(state.clock[1] >= 1.0)
 
     def go_on(self, session: Session, state: GaitState) -> None:
         """Gives every leg that is on the ground the new path."""

@@ -1,8 +1,8 @@
 """What is wrong with an edit: the number of the point, and a sentence."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import isfinite
 
 import numpy as np
 from jaxtyping import Float
@@ -43,12 +43,14 @@ def numbers_in(points: Rows, width: int, fewest: int, most: int) -> np.ndarray |
     if not fewest <= len(points) <= most:
         return Refusal(f"there are {len(points)} points; this curve has {fewest} to {most}")
     for number, point in enumerate(points, start=1):
-        is_row = len(point) == width and all(
-            isinstance(x, int | float) and math.isfinite(float(x)) for x in point
-        )
-        if not is_row:
+        if not (is_row(point) and len(point) == width):
             return Refusal(f"point {number} has not {width} finite numbers", number)
     return np.array(points, dtype=float)
+
+
+def is_row(point: Sequence[float]) -> bool:
+    """Whether it is a row of finite numbers, whoever sent it."""
+    return isinstance(point, list | tuple) and all(isinstance(x, int | float) and isfinite(x) for x in point)
 
 
 # --- leg cycles --------------------------------------------------------------------------------------
@@ -124,7 +126,8 @@ def fault_in_change(
     leap = np.abs(change - np.roll(change, step, axis=0)) - LEAP * limit
     if leap.max() > 0.0:
         row, joint = np.unravel_index(int(leap.argmax()), leap.shape)
-        number = nearest_to(phases, (row - step / 2) / BINS)
+        farther = max(int(row), int(row) - step, key=lambda k: abs(float(change[k, joint])))
+        number = nearest_to(phases, farther / BINS)
         most = f"{LEAP:.0%} of its {limit[joint]:.3g} N·m from one 32nd of the cycle to the next"
         what = f"the torque of {HINGES[joint]} leaps; a change of up to {most} is taken"
         return Refusal(f"at point {number}, leg {robot.legs[leg]}: {what}", number)

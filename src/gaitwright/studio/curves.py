@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from gaitwright.errors import unknown
+from gaitwright.gait.coordinator import Coordinator
 from gaitwright.gait.leg_cycles.files import cycle_of
 from gaitwright.gait.operators import Operator
 from gaitwright.locomotion import Brain
@@ -50,7 +51,9 @@ class Curves:
     # --- beside the session ------------------------------------------------------------------------
     def fit(self, brain: Brain) -> Brain:
         """A new brain, with the edits that count; as it comes it is what all of them start from."""
-        self.origin, self.change, self.laps = Parts.of(brain), Change(), None
+        self.origin, self.change, self.laps = None, Change(), None
+        if not isinstance(brain.coordinator, Coordinator):  # a climb that was planned has none
+            return brain
         return self.parts(brain, self.history.now).within(brain)
 
     def after(self, session: Session) -> None:
