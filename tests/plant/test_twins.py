@@ -46,7 +46,8 @@ def test_what_a_twin_does_is_not_felt() -> None:
     for _ in range(50):
         other.step(watched.lap.command)
     for _ in range(50):
-        alone.step(), watched.step()
+        alone.step()
+        watched.step()
     np.testing.assert_array_equal(alone.measured.row, watched.measured.row)
     assert np.abs(other.sense().position_w - alone.measured.position_w).max() > 0.01
 

@@ -9,9 +9,11 @@ import pytest
 from gaitwright.control.learned.profile import Profile, as_kept
 from gaitwright.errors import WrongUse
 from gaitwright.gait.coordinator import Coordinator
+from gaitwright.gait.operators import SHARES, Operator
 from gaitwright.gait.state import SWING
 from gaitwright.ground.scene import load_scene
 from gaitwright.learning import operator_lessons
+from gaitwright.learning.operator_lessons import imagining
 from gaitwright.learning.profile_lessons import cycle_of
 from gaitwright.locomotion import Brain
 from gaitwright.plant.mujoco.simulation import MujocoPlant
@@ -19,6 +21,7 @@ from gaitwright.session import Session
 from gaitwright.signals import Mission
 from gaitwright.skills.chooser import fixed_skill
 from gaitwright.studio.curve_change import Change, Parts
+from gaitwright.studio.curve_history import Snapshot
 from gaitwright.studio.curve_obstacle import Obstacle
 from gaitwright.studio.curve_preview import Wish, run
 from gaitwright.studio.curve_walk import Walk
@@ -192,7 +195,8 @@ def test_a_preview_leaves_the_session_alone() -> None:
     parts = curves.parts(watched.brain, curves.history.now)
     run(watched, Wish(Walk.of(GO2, "gallop", watched), 0, parts))
     for _ in range(60):
-        watched.step(), alone.step()
+        watched.step()
+        alone.step()
         np.testing.assert_array_equal(watched.measured.row, alone.measured.row)
         np.testing.assert_array_equal(watched.lap.command.row, alone.lap.command.row)
 
@@ -253,6 +257,35 @@ def test_a_path_over_an_obstacle_becomes_an_operator(monkeypatch) -> None:
     curves.undo(session)
     go(curves, session, 200)
     assert session.brain.coordinator.operators == ()
+
+
+def test_legs_that_are_amid_an_operator_stay_with_it() -> None:
+    path = np.zeros((SHARES, 2))
+    path[8:25, 1] = 1.0
+    old, new = (Operator(name, ("block",), 0.1, path, np.zeros((SHARES, 3)), 0.16) for name in ("old", "new"))
+    curves, session = walking("walk", ticks=150)
+    brain = imagining(session.brain.with_operators([old]), (old,), 0, 0.05)
+    session.brain = curves.fit(brain)
+    while session.mind.memories.gait.state.operator[0] < 1.0:
+        go(curves, session, 1)
+    curves.history.add(Snapshot(operators=(new,)))
+    curves.change.phase = 1.0
+    curves.change.ask(curves.parts(session.brain, curves.history.now))
+    curves.change.after(session)
+    assert session.brain.coordinator.operators == (new, old)
+    assert session.mind.memories.gait.state.operator[0] == 2.0
+    curves.change.ask(with_operators(session, (new,)))
+    curves.change.phase = 1.0
+    curves.change.after(session)
+    assert session.brain.coordinator.operators == (new, old), "the one in use may not go yet"
+    while session.brain.coordinator.operators != (new,):
+        go(curves, session, 1)
+    assert session.mind.memories.gait.state.operator[0] <= 1.0
+
+
+def with_operators(session: Session, operators: tuple[Operator, ...]) -> Parts:
+    parts = Parts.of(session.brain)
+    return parts._replace(coordinator=replace(parts.coordinator, operators=operators, imagined=()))
 
 
 def test_one_that_is_lower_than_the_obstacle_is_none() -> None:

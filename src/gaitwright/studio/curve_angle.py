@@ -93,7 +93,7 @@ class AngleCurve:
                 return Refusal(f"point {number}: {because}", number)
             place = self.placed(row, (own - duty) / (1.0 - duty))
             if place is None:
-                because = "that moves the foot out of the plane of its path; move hip 2 or the knee"
+                because = "that moves the foot out of the plane of its path, which goes along its way and up"
                 return Refusal(f"point {number}: {because}", number)
             path.append(place)
         return self.as_path.edited(path, mirror)

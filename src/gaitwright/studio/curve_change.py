@@ -1,6 +1,6 @@
 """An edit that takes effect at the next cycle, without a leap of any foot."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
@@ -13,7 +13,8 @@ from gaitwright.errors import WrongUse
 from gaitwright.gait.coordinator import Coordinator, Cycle
 from gaitwright.gait.leg_cycles.files import cycle_of
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle, tabulated_legs
-from gaitwright.gait.state import SWING, GaitState
+from gaitwright.gait.operators import Operator
+from gaitwright.gait.state import SWING, GaitState, state_of
 from gaitwright.locomotion import Brain
 from gaitwright.session import Session
 from gaitwright.signals import Gait
@@ -83,18 +84,23 @@ class Change:
             state = session.mind.memories.gait.state
             if self.under_way is None and self.wanted is not None and self.is_time(session, state):
                 self.under_way, self.wanted = self.wanted, None
-                self.before = Parts.of(session.brain).coordinator.cycles
-                self.late = (True,) * len(state.mode)
+                now = Parts.of(session.brain).coordinator
+                self.before, self.late = now.cycles, (True,) * len(state.mode)
+                renumber(session, now.operators, self.under_way.coordinator.operators)
             if self.under_way is not None:
                 self.go_on(session, state)
         if session.lap is not None:
             self.phase = session.lap.target.phase
 
     def is_time(self, session: Session, state: GaitState) -> bool:
-        """Whether a new cycle begins, or none is under way; no leg may be amid a terrain operator."""
+        """Whether a new cycle begins, or none is under way; a leg that is amid a terrain operator which goes
+        is waited for."""
+        assert self.wanted is not None
         if session.lap is None or session.is_over or session.closed:
             return True
-        if state.operator.max() > 0.0:
+        now = Parts.of(session.brain).coordinator.operators
+        under = {id(now[int(number) - 1]) for number in state.operator if number > 0.0}
+        if not under <= {id(one) for one in self.wanted.coordinator.operators}:
             return False
         begins = float(state.phase[0]) < self.phase
         return begins or bool(state.clock[1] >= 1.0)
@@ -113,3 +119,17 @@ class Change:
         else:
             self.under_way = None
         session.brain = parts.within(session.brain)
+
+
+def renumber(session: Session, before: Sequence[Operator], after: Sequence[Operator]) -> None:
+    """Legs that are amid a terrain operator stay with it where it has another number from now on."""
+    memory = session.mind.memories.gait
+    if before == after or memory.state.operator.max() <= 0.0:
+        return
+    places = {id(one): place for place, one in enumerate(after, start=1)}
+    row = memory.row.copy()
+    numbers = state_of(row).operator
+    for leg in np.flatnonzero(numbers > 0.0):
+        numbers[leg] = places.get(id(before[int(numbers[leg]) - 1]), 0.0)
+    memories = session.mind.memories._replace(gait=memory._replace(row=row))
+    session.mind = session.mind._replace(memories=memories)

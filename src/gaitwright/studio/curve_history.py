@@ -14,7 +14,8 @@ LONGEST = 100
 """Steps that can be undone."""
 Cell = tuple[str, tuple[float, float, float]]
 """A skill, and the velocity of one of its profiles."""
-K, V = TypeVar("K"), TypeVar("V")
+K = TypeVar("K")
+V = TypeVar("V")
 
 
 @dataclass(frozen=True)

@@ -116,6 +116,8 @@ def run(session: Session, wish: Wish) -> tuple[list[Lap], int]:
         change.after(branch)
         if waited is None and change.wanted is None:
             waited = len(laps) - 1
+        if len(laps) * branch.plant.dt > patience + 2.0 * SECONDS:
+            break
     return laps, waited or 0
 
 
@@ -149,8 +151,8 @@ def branched(session: Session, wish: Wish) -> Session:
 def held(branch: Session, wish: Wish) -> Session:
     """The same, where something else is done than is to be seen: the skill is held, and driven so."""
     call, walk = branch.mind.call, wish.walk
-    drives = call.driver in (LEARNED, HYBRID) or not wish.played
-    if call.gait.name == walk.skill and drives:
+    driver = branch.mind.memories.drive.driver if call.driver == HYBRID else call.driver
+    if call.gait.name == walk.skill and (driver == LEARNED or not wish.played):
         return branch
     driver = LEARNED if wish.played else branch.mind.mission.driver
     call = replace(
