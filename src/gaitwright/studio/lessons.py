@@ -81,20 +81,24 @@ class Lessons:
         del self.live.seen[:-600]
 
     # --- shown --------------------------------------------------------------------------------------
-    def why(self, rule: str, source: Running) -> list[str]:
-        """Why it does what it does, or why a rule does not fire; what would have to be different."""
+    def why(self, rule: str, source: Running) -> dict[str, Any]:
+        """Why it does what it does, or why a rule does not fire; what would have to be different for that
+        rule to fire, or any other; and the situation that all this is about."""
         book, moment = self.rulebook, source.here().moment
         situation = in_trees_of(book, moment.situation, moment.facts)
-        if rule:
-            return [why_not(book, rule, situation)]
         decision = consult(book, situation)
-        said = [source.session.mind.call.because, because(book, decision)]
-        return said if decision.rule is None else [*said, what_if(book, moment.facts).sentence]
+        why = [source.session.mind.call.because, because(book, decision)]
+        other = "" if rule == decision.rule else rule
+        return {
+            "sentences": [why_not(book, rule, situation)] if rule else why,
+            "different": what_if(book, moment.facts, other).sentence if book.rules else "",
+            "situation": {tree: situation[tree] for tree in book.forest.names},
+            "fires": decision.rule or "",
+        }
 
     def tried_shown(self, tried: Tried) -> dict[str, Any]:
         """What a lesson would do."""
         return {
-            "say": "tried",
             "lesson": tried.told.id,
             "sentence": f"{said_of(tried.told.action)} is right here",
             "moves": [event.why for event in tried.taken.events][:HISTORY],

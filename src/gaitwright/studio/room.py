@@ -12,7 +12,9 @@ from time import monotonic
 from typing import Any
 
 from gaitwright.errors import WrongUse
+from gaitwright.ground.scenes_list import scene_names
 from gaitwright.ground.terrain import Box
+from gaitwright.model.catalogue import ROBOTS
 from gaitwright.navigation.travel import Travel
 from gaitwright.record.previews import preview_of
 from gaitwright.record.recording import Recorder
@@ -20,6 +22,7 @@ from gaitwright.session import DT
 from gaitwright.skillbook.writer import Ledger
 from gaitwright.skills.library import skill_names
 from gaitwright.studio import messages as m
+from gaitwright.studio.curve_desk import CurveDesk
 from gaitwright.studio.frames import columns_of, frame_of, row_of
 from gaitwright.studio.lessons import Lessons
 from gaitwright.studio.live_run import LiveRun
@@ -44,6 +47,7 @@ class Room:
         self.ledger, self.say = ledger, say
         self.lessons = Lessons(ledger)
         self.shelf = Shelf(folder)
+        self.curves = CurveDesk(ledger, folder, say)
         self.mode: m.Mode = "plan"
         self.paused, self.pace = False, 1.0
         self.steered_at: float | None = None
@@ -56,12 +60,14 @@ class Room:
             m.Push: self.push, m.PlaceBox: self.place, m.Move: self.move, m.Remove: self.remove,
             m.Record: self.record, m.Recordings: self.recordings, m.Right: self.right, m.Ok: self.ok,
             m.Keep: self.keep, m.Back: self.back, m.Forget: self.forget, m.Why: self.why,
+            **self.curves.does,
         }  # fmt: skip
 
     def begin(self, setup: Setup) -> None:
         """A run from its start. Raises `WrongUse` or `BadFile`; then the one before goes on."""
         run = LiveRun(setup, self.ledger)
         self.run, self.ticks = run, Counter[str]()
+        self.curves.attend(run)
         self.steered_at = None
 
     def welcome(self) -> None:
@@ -74,6 +80,8 @@ class Room:
                 "version": 1,
                 "columns": columns_of(run.robot.n),
                 "choices": {
+                    "robots": list(ROBOTS),
+                    "scenes": [{"name": name, "about": about} for name, about in scene_names().items()],
                     "drivers": list(DRIVERS),
                     "modes": list(m.MODES),
                     "skills": list(skill_names(run.robot.n)),
@@ -97,6 +105,7 @@ class Room:
         if lap is None:
             return False
         self.ticks[lap.call.driver or self.run.driver] += 1
+        self.curves.after()
         return True
 
     def watch_over(self) -> None:
@@ -254,7 +263,7 @@ class Room:
         return self.learned(self.lessons.forget(said.lesson, self.run.lesson))
 
     def why(self, said: m.Why) -> Answer:
-        return {"sentences": self.lessons.why(said.rule, self.run.lesson)}
+        return self.lessons.why(said.rule, self.run.lesson)
 
     # --- the end ------------------------------------------------------------------------------------
     def close(self) -> None:
