@@ -20,8 +20,7 @@ export function ChartView({ chart, feed }: { chart: Chart; feed: Feed }) {
     let plot: uPlot | null = null;
     const tellValues = () => {
       if (!plot) return;
-      const last = plot.data[0].length - 1;
-      const at = plot.cursor.idx ?? last;
+      const at = plot.cursor.idx ?? plot.valToIdx(feed.now());
       chart.lines.forEach((_, k) => {
         const place = values.current[k];
         const text = number(plot!.data[k + 1]?.[at] as number | undefined, chart.digits);

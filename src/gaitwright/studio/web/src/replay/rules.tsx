@@ -5,7 +5,7 @@ import { skillColour } from "../ui/colours";
 import { number, Section } from "../ui/controls";
 import { clock } from "./clock";
 import { Player } from "./player";
-import { stretches } from "./scrubber";
+import { stretches } from "./stretches";
 
 export function RulesOverTime({ source }: { source: Source }) {
   if (!(source instanceof Player)) return null;

@@ -1,12 +1,12 @@
 // The bar below a replay: play, speed, and all of time with its skills and drivers.
 
 import { useRef } from "preact/hooks";
-import type { ReplayEvent } from "../protocol";
 import { driverColour, skillColour } from "../ui/colours";
 import { number, Segmented } from "../ui/controls";
 import { Icon } from "../ui/icons";
 import { clock, SPEEDS } from "./clock";
 import type { Player } from "./player";
+import { stretches } from "./stretches";
 
 export function Scrubber({ players }: { players: Player[] }) {
   const playing = clock.playing.value;
@@ -78,22 +78,4 @@ function Bands({ player, duration }: { player: Player; duration: number }) {
       </div>
     </>
   );
-}
-
-export interface Stretch {
-  name: string;
-  from: number;
-  to: number;
-}
-
-/** How long something held, one stretch after another. */
-export function stretches(events: ReplayEvent[], key: "skill" | "driver" | "rule", end: number): Stretch[] {
-  const out: Stretch[] = [];
-  events.forEach((event, k) => {
-    const to = events[k + 1]?.time ?? end;
-    const last = out.at(-1);
-    if (last && last.name === event[key]) last.to = to;
-    else out.push({ name: event[key], from: event.time, to });
-  });
-  return out.filter(({ from, to }) => to > from);
 }

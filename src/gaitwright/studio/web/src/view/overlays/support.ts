@@ -10,7 +10,7 @@ const LIFT = 0.006;
 
 export class Support implements Overlay {
   readonly object = new Group();
-  private readonly now = new Ribbon("#0ca678", 0.009);
+  private readonly now = new Ribbon("#0ca678", 0.009, 1, true);
   private readonly next = new Ribbon("#0ca678", 0.005, 0.45);
   private readonly centre = new Group();
   private readonly paint = new MeshBasicMaterial({ color: "#0ca678", side: DoubleSide, toneMapped: false });
