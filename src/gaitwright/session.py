@@ -71,7 +71,9 @@ class Session:
     """One robot's run from its start to its end.
 
     `seed` varies the start where `vary`: pose, velocity and the phase of the gait. After the last step, or
-    `close`, the motors are off; where it `lowers`, they go on until `lower` has let the robot down.
+    `close`, the motors are off; where it `lowers`, they go on until `lower` has let the robot down. Where a
+    person attends to it (`attended`), a mission that ended with the robot on its feet does not end the run:
+    the robot stands, `outcome` says what became of it, and another one may be given.
     """
 
     def __init__(  # noqa: PLR0913 - the door to a run
@@ -83,10 +85,11 @@ class Session:
         seed: int = 0,
         vary: bool = True,
         lowers: bool = False,
+        attended: bool = False,
     ) -> None:
         if not getattr(plant, "has_mechanics", True):
             brain, lowers = replace(brain, watch=None), False
-        self.lowers = lowers
+        self.lowers, self.attended = lowers, attended
         self.brain, self.plant = brain, plant
         self.measured: Measured = plant.reset(seed, vary)
         phase = float(np.random.default_rng([seed, 1]).uniform()) if vary else 0.0
@@ -94,6 +97,8 @@ class Session:
         self.termination = Termination(brain.robot, self.mind.ground.bounds, seconds, self.measured.time)
         self.lap: Lap | None = None
         """The last lap; `None` before the first step."""
+        self.outcome: Ending | None = None
+        """What became of the last mission, where the run goes on after it."""
         self.paused = False
         self.closed = False
         self.pushes: list[Push] = []
@@ -119,6 +124,9 @@ class Session:
             ending = self.termination.judge(lap.sensed, lap.route, lap.call, lap.target, lap.command)
             if ends_trip(lap.faults) and not (ending and ending.fell):
                 ending = Ending(lap.faults[-1].sentence)
+            if ending and ending.may_wait and self.attended:
+                self.steer(0.0)
+                self.outcome, ending = ending, None
             self.lap = ended(lap, ending) if ending else lap
         if not self.is_over:
             self.push_if_due(self.lap)
@@ -171,6 +179,7 @@ class Session:
     def give(self, mission: Mission) -> None:
         """Another mission from the next step on; the gait goes on, the new way is planned from here."""
         self.brain.controller(mission.driver)
+        self.outcome = None
         self.mind = self.brain.begin(mission, self.measured, before=self.mind)
         self.termination.set_out(self.measured.time)
 

@@ -45,6 +45,8 @@ class Ending:
     because: str
     arrived: bool = False
     fell: bool = False
+    may_wait: bool = False
+    """Whether the robot stands, or can: where somebody attends to it, it may wait for another mission."""
 
 
 @kernel
@@ -118,13 +120,13 @@ class Termination:
         if fault:
             return fault
         if route.no_way:
-            return Ending(f"there is no way to the goal: {route.no_way}")
+            return Ending(f"there is no way to the goal: {route.no_way}", may_wait=True)
         if not ((route.arrived or call.halt) and all_down and speed < STILL * self.pace):
             self.standing_since = now
         stood = now - self.standing_since
         if stood > (REST if route.arrived else HALTED):
-            arrival = Ending("arrived at the goal", arrived=True)
-            return arrival if route.arrived else Ending(f"stopped: {call.halt}")
+            arrival = Ending("arrived at the goal", arrived=True, may_wait=True)
+            return arrival if route.arrived else Ending(f"stopped: {call.halt}", may_wait=True)
         return self.out_of_time(route) if now >= self.ends - 1e-9 else None
 
     def fallen(self, now: float, lean: float, over_feet: float) -> Ending | None:
@@ -168,7 +170,8 @@ class Termination:
         if sensed.time - self.progress_at <= self.patience:
             return None
         x, y = sensed.position_w[:2]
-        return Ending(f"stuck: no progress for {self.patience:.0f} s at ({x:.2f}, {y:.2f})")
+        sentence = f"stuck: no progress for {self.patience:.0f} s at ({x:.2f}, {y:.2f})"
+        return Ending(sentence, may_wait=True)
 
     def out_of_time(self, route: Route) -> Ending:
         """The end of the time, and how far it is still."""

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from gaitwright.cli import main
-from gaitwright.cli.explain_text import history_lines
 from gaitwright.cli.situation_args import asked, last_lessons, said, whatever
 from gaitwright.knowledge.consult import consult
 from gaitwright.knowledge.forest import replace_value
 from gaitwright.knowledge.json_form import dumps
 from gaitwright.knowledge.rules import Rulebook
+from gaitwright.knowledge.sentences import history_lines
 from knowledge.hand_made import GARDEN, at, garden, rule_of
 
 FOREST, BOOK = GARDEN, garden()

@@ -9,11 +9,11 @@ from dataclasses import replace
 from gaitwright.cli import profiles
 from gaitwright.cli.book_files import facts_of, skillbook_of
 from gaitwright.cli.console import show_pairs, working
-from gaitwright.cli.explain_text import counted
 from gaitwright.cli.output import write_json
 from gaitwright.errors import BadFile, WrongUse
 from gaitwright.knowledge.explain import move_text
 from gaitwright.knowledge.rules import Event
+from gaitwright.knowledge.sentences import counted
 from gaitwright.knowledge.told import Told
 from gaitwright.learning.analogies import proposal_of
 from gaitwright.learning.merging import decided

@@ -9,11 +9,11 @@ from pathlib import Path
 from gaitwright.cli import book_lessons, maps, profiles, trust
 from gaitwright.cli.book_files import SQLITE, check_there, facts_of, new_file, skillbook_of
 from gaitwright.cli.console import remark, show_pairs, show_prose, working
-from gaitwright.cli.explain_text import counted
 from gaitwright.cli.output import check_json, write_json, write_whole
 from gaitwright.errors import BadFile, WrongUse
 from gaitwright.files import content_of, text_of
 from gaitwright.knowledge.json_form import MAX_BYTES, loads
+from gaitwright.knowledge.sentences import counted
 from gaitwright.learning.merging import Merged, merge
 from gaitwright.learning.notes import relearned
 from gaitwright.skillbook.book import Skillbook, content_hash, export_text, import_text

@@ -17,7 +17,14 @@ from gaitwright.cli.console import (
     show_table,
     working,
 )
-from gaitwright.cli.explain_text import (
+from gaitwright.cli.output import check_json, write_json
+from gaitwright.cli.situation_args import RECORDED, SAID, Asked, asked, said, whatever
+from gaitwright.errors import WrongUse
+from gaitwright.knowledge.consult import Decision, consult
+from gaitwright.knowledge.explain import forest_text
+from gaitwright.knowledge.memory import Memory, remembered
+from gaitwright.knowledge.rules import Rulebook, status
+from gaitwright.knowledge.sentences import (
     because,
     changes,
     facts_of,
@@ -30,13 +37,6 @@ from gaitwright.cli.explain_text import (
     title,
     verdict,
 )
-from gaitwright.cli.output import check_json, write_json
-from gaitwright.cli.situation_args import RECORDED, SAID, Asked, asked, said, whatever
-from gaitwright.errors import WrongUse
-from gaitwright.knowledge.consult import Decision, consult
-from gaitwright.knowledge.explain import forest_text
-from gaitwright.knowledge.memory import Memory, remembered
-from gaitwright.knowledge.rules import Rulebook, status
 from gaitwright.knowledge.told import Told
 from gaitwright.screen import show
 

@@ -4,16 +4,15 @@ import shlex
 from collections.abc import Callable
 
 from gaitwright.cli.console import remark, show_pairs, show_prose
-from gaitwright.cli.explain_text import because, counted, sentence_of
 from gaitwright.cli.live_text import Said, number, tell_events, tell_tried
 from gaitwright.errors import BadFile, GaitwrightError, WrongUse, unknown
 from gaitwright.knowledge.consult import consult
 from gaitwright.knowledge.explain import why_not
-from gaitwright.knowledge.memory import Action, said_of
+from gaitwright.knowledge.memory import said_of
+from gaitwright.knowledge.sentences import because, counted, sentence_of
 from gaitwright.learning.live import LiveLessons, Tried
 from gaitwright.learning.live_sources import Played, Running
-from gaitwright.learning.said_action import Words, said_action
-from gaitwright.learning.skill_pupil import told_at
+from gaitwright.learning.said_action import said_action
 from gaitwright.learning.teacher import Shown
 from gaitwright.model.robot import Robot
 from gaitwright.skills.book_trees import in_trees_of
@@ -120,25 +119,20 @@ class Room:
         action = said_action(said.words, self.robot, pupil.actions)
         if said.about and said.about not in pupil.vocabulary.names:
             raise unknown("number", said.about, pupil.vocabulary.names)
-        self.try_out(action, said.name or self.lessons.pupil.name_of(action), said.about)
+        self.try_out(
+            self.lessons.correction(
+                self.source.here(), Shown(said.name, action, about=said.about), self.source.name
+            )
+        )
 
     def ok(self, words: list[str]) -> None:
         """What the robot does is right."""
-        seen = self.source.here()
-        action = self.lessons.pupil.choose(seen.moment).action
-        if action is None or action.skill != seen.skill:
-            action = said_action(Words(seen.skill), self.robot, self.lessons.pupil.actions)
-        self.try_out(action, self.lessons.pupil.name_of(action), "")
+        self.try_out(self.lessons.confirmation(self.source.here(), self.robot, self.source.name))
         self.keep([])
 
-    def try_out(self, action: Action, name: str, about: str) -> None:
-        seen = self.source.here()
-        pupil = self.lessons.pupil
-        is_right = pupil.choose(seen.moment).action == pupil.learned(action)
-        given = "confirmed" if is_right else "corrected"
-        told = told_at(seen.moment, Shown(name, action, about=about), self.source.name, given)
-        self.tried = self.lessons.tried(told)
-        tell_tried(self.tried, seen)
+    def try_out(self, tried: Tried) -> None:
+        self.tried = tried
+        tell_tried(tried, self.source.here())
 
     def keep(self, words: list[str]) -> None:
         if self.tried is None:

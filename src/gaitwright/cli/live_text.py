@@ -1,12 +1,12 @@
 """What a person says in a lesson, and what she is told of it."""
 
 from gaitwright.cli.console import show_prose
-from gaitwright.cli.explain_text import counted
 from gaitwright.errors import WrongUse
 from gaitwright.knowledge.memory import said_of
 from gaitwright.knowledge.rules import Event
+from gaitwright.knowledge.sentences import counted
 from gaitwright.knowledge.told import Told
-from gaitwright.learning.live import Seen, Stretch, Tried
+from gaitwright.learning.live import Seen, Tried
 from gaitwright.learning.said_action import Words
 
 FEW = 3
@@ -74,7 +74,7 @@ def tell_tried(tried: Tried, seen: Seen) -> None:
     if tried.stretches:
         show_prose("Over what you have seen here:", 2)
         for stretch in tried.stretches[:FEW]:
-            show_prose(f"{stretch_text(stretch)}", 4)
+            show_prose(stretch.sentence, 4)
         if len(tried.stretches) > FEW:
             show_prose(f"and {len(tried.stretches) - FEW} more", 4)
     for what, some in (("not followed any more", tried.broken), ("followed now", tried.mended)):
@@ -90,17 +90,6 @@ def tell_events(events: tuple[Event, ...]) -> None:
     """What moved, rule by rule."""
     for event in events:
         show_prose(f"{event.why}.", 2)
-
-
-def stretch_text(stretch: Stretch) -> str:
-    """From when to when what was decided, and what is now."""
-    when = (
-        f"{stretch.begin:.1f} s"
-        if stretch.begin == stretch.end
-        else f"{stretch.begin:.1f} to {stretch.end:.1f} s"
-    )
-    old, new = ("nothing" if a is None else said_of(a) for a in (stretch.before, stretch.after))
-    return f"{when}: {new} instead of {old}"
 
 
 def fact_text(told: Told) -> str:

@@ -7,12 +7,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from gaitwright.errors import WrongUse
-from gaitwright.knowledge.memory import Action
+from gaitwright.knowledge.memory import Action, said_of
 from gaitwright.knowledge.rules import Event
 from gaitwright.knowledge.told import Told
 from gaitwright.learning.decision_point import DecisionPoint
 from gaitwright.learning.notes import forget, settle
-from gaitwright.learning.skill_pupil import Choice, SkillPupil, Taken
+from gaitwright.learning.said_action import Words, said_action
+from gaitwright.learning.skill_pupil import Choice, SkillPupil, Taken, told_at
+from gaitwright.learning.teacher import Shown
+from gaitwright.model.robot import Robot
 from gaitwright.skillbook.history import free_name, names_told
 from gaitwright.skillbook.writer import Ledger
 
@@ -34,6 +37,13 @@ class Stretch:
     end: float
     before: Action | None
     after: Action | None
+
+    @property
+    def sentence(self) -> str:
+        """When, and what instead of what."""
+        when = f"{self.begin:.1f} s" if self.begin == self.end else f"{self.begin:.1f} to {self.end:.1f} s"
+        old, new = ("nothing" if a is None else said_of(a) for a in (self.before, self.after))
+        return f"{when}: {new} instead of {old}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +91,21 @@ class LiveLessons:
             tuple(before.told[k] for k in range(len(old)) if old[k] and not new[k]),
             tuple(before.told[k] for k in range(len(old)) if new[k] and not old[k]),
         )
+
+    def correction(self, seen: Seen, right: Shown, source: str) -> Tried:
+        """What it would do to be told what is right at a moment; `source` says where that was."""
+        pupil = self.pupil
+        name = right.rule or pupil.name_of(right.action)
+        is_right = pupil.choose(seen.moment).action == pupil.learned(right.action)
+        given = "confirmed" if is_right else "corrected"
+        return self.tried(told_at(seen.moment, replace(right, rule=name), source, given))
+
+    def confirmation(self, seen: Seen, robot: Robot, source: str) -> Tried:
+        """What it would do to be told that what is done at a moment is right."""
+        action = self.pupil.choose(seen.moment).action
+        if action is None or action.skill != seen.skill:
+            action = said_action(Words(seen.skill), robot, self.pupil.actions)
+        return self.correction(seen, Shown("", action), source)
 
     def keep(self, tried: Tried) -> None:
         """Learns it: lesson, rules and notes are in the book when this returns."""

@@ -13,7 +13,7 @@ from gaitwright.navigation.roads import RoadMap
 from gaitwright.navigation.tolerances import DEEP, LINK, WORTH
 from gaitwright.numerics.compiled import kernel
 
-TURN, TURNING = 3.0, 0.03
+TURN, TURNING = 3.0, 0.06
 """Turning by a radian is worth as many radii of way as are walked meanwhile (0.5 m/s, 1 rad/s, a Go2), and
 turning round at most this share of the straight line to the goal."""
 ANYWHERE = np.zeros((0, 0), dtype=bool)

@@ -63,6 +63,15 @@ def way_update(scene: Scene, points: Sequence[tuple[float, float]], seconds: flo
 
 
 def ground(scene: Scene) -> dict[str, Any]:
+    """The surface."""
+    return mesh(*ground_triangles(scene), GROUND)
+
+
+Triangles = tuple[Float[np.ndarray, "nodes 3"], Int[np.ndarray, "triangles 3"]]
+"""Places [m], and the three of each triangle."""
+
+
+def ground_triangles(scene: Scene) -> Triangles:
     """The surface: two triangles for each cell of its grid, the very ones that feet meet unless thinned."""
     if isinstance(scene.surface, Pitted):
         return pitted(scene.surface, scene.bounds)
@@ -72,10 +81,10 @@ def ground(scene: Scene) -> dict[str, Any]:
     last = first + columns + 1
     corners = np.column_stack([first, first + 1, last, first, last, first + columns])
     across, along = np.meshgrid(x, y)
-    return mesh(np.column_stack([across.ravel(), along.ravel(), z.ravel()]), corners.reshape(-1, 3), GROUND)
+    return np.column_stack([across.ravel(), along.ravel(), z.ravel()]), corners.reshape(-1, 3)
 
 
-def pitted(surface: Pitted, bounds: tuple[float, float, float, float]) -> dict[str, Any]:
+def pitted(surface: Pitted, bounds: tuple[float, float, float, float]) -> Triangles:
     """A plane with holes: its level parts, their walls and their floors."""
     left: shapely.Geometry = shapely.box(*bounds)
     faces: list[Float[np.ndarray, "_ 3"]] = []
@@ -89,10 +98,15 @@ def pitted(surface: Pitted, bounds: tuple[float, float, float, float]) -> dict[s
         faces += walls(lifted(rim, height), height - hole.depth)
     for part in convex_parts(left):
         faces.append(lifted(part, np.asarray(surface.plane.height(*part.T))))
-    return mesh(*fans(faces), GROUND)
+    return fans(faces)
 
 
 def hull(scene: Scene, solid: Solid) -> dict[str, Any]:
+    """A solid."""
+    return mesh(*hull_triangles(scene, solid), BOX)
+
+
+def hull_triangles(scene: Scene, solid: Solid) -> Triangles:
     """A solid's top and sides, which go down below the ground that is not level."""
     level = scene.level(solid)
     depth = 0.0 if isinstance(scene.surface, Flat) else 2.0 * solid.reach
@@ -100,7 +114,7 @@ def hull(scene: Scene, solid: Solid) -> dict[str, Any]:
     for top in solid.tops():
         placed = top + np.array([0.0, 0.0, level])
         faces += [placed, *walls(placed, level - depth)]
-    return mesh(*fans(faces), BOX)
+    return fans(faces)
 
 
 def walls(
@@ -111,7 +125,7 @@ def walls(
     return [np.array([low[k - 1], low[k], top[k], top[k - 1]]) for k in range(len(top))]
 
 
-def fans(faces: list[Float[np.ndarray, "_ 3"]]) -> tuple[np.ndarray, np.ndarray]:
+def fans(faces: list[Float[np.ndarray, "_ 3"]]) -> Triangles:
     """Convex faces as triangles: the places of their corners, and the corners of each triangle."""
     first = np.cumsum([0, *(len(face) for face in faces)])
     corners = [

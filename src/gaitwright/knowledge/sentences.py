@@ -1,4 +1,4 @@
-"""What `gaitwright explain` tells, as sentences and rows: of a rulebook, of a rule, of a decision."""
+"""A rulebook, a rule, a decision and what moved its marks, as sentences and rows that people read."""
 
 from collections import Counter
 from collections.abc import Iterator

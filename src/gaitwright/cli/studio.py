@@ -1,0 +1,42 @@
+"""`gaitwright studio`: the page in a browser from which a person watches, drives and teaches."""
+
+import importlib.util
+import json
+import webbrowser
+from argparse import Namespace
+from pathlib import Path
+
+from gaitwright.cli.console import remark, working
+from gaitwright.cli.output import check_json, settled, write_json
+from gaitwright.errors import WrongUse
+from gaitwright.studio.page_build import ready_page
+from gaitwright.studio.setup import Setup
+
+NEEDED = ("starlette", "uvicorn", "websockets")
+BOOK = "studio.skills"
+
+
+def run(args: Namespace) -> int:
+    lacking = [name for name in NEEDED if not importlib.util.find_spec(name)]
+    if lacking:
+        raise WrongUse(f"the studio needs {', '.join(lacking)}: `pip install 'gaitwright[studio]'`")
+    from gaitwright.studio.serving import Serving, serve  # noqa: PLC0415 - an extra
+
+    check_json(args.json)
+    folder = settled(args.out, "--out")
+    with working("looking for the page", worth_a_line=None):
+        page = ready_page(remark)
+    book = Path(args.skillbook) if args.skillbook else folder / BOOK
+    setup = Setup(args.robot, args.scene, args.seed, args.sight, args.driver)
+    what = Serving(setup, book, folder, page, args.host, args.port, begins=args.skillbook is None)
+    serve(what, lambda address: tell(address, args))
+    return 0
+
+
+def tell(address: str, args: Namespace) -> None:
+    """Says where the studio is, and opens it where that was not forbidden."""
+    if args.json != "-":
+        print(f"The studio is open at {address}\nCtrl-C closes it.", flush=True)
+    write_json(args.json, json.dumps({"address": address}))
+    if not args.no_browser:
+        webbrowser.open(address)

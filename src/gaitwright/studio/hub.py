@@ -1,0 +1,136 @@
+"""Who watches and who drives: what the host says goes to all, what a driver asks goes to the host.
+
+Latest wins: of frames, and of each kind of thing that is said to everybody, one who reads slowly gets the
+newest and never a queue of old ones. Answers to what one asked are kept, up to `MOST_ANSWERS`.
+"""
+
+import asyncio
+import itertools
+import json
+from collections.abc import Callable
+
+from gaitwright.errors import WrongUse
+from gaitwright.studio.messages import Anyone, Release, Take, id_of, message_of
+
+MOST_ANSWERS, MOST_WATCHERS = 256, 64
+KINDS = ("hello", "world", "rules", "status", "scan", "seen", "moved", "curve", "closed")
+"""What is said to everybody; one who comes later is told the last of each, in this order."""
+
+
+class Member:
+    """One page: what it is still to be told."""
+
+    def __init__(self, number: int) -> None:
+        self.number = number
+        self.news = asyncio.Event()
+        self.frame: bytes | None = None
+        self.said: dict[str, str] = {}
+        self.answers: list[str] = []
+
+    def take(self) -> list[str | bytes]:
+        """All of it, and nothing is left."""
+        texts: list[str | bytes] = [*self.answers, *self.said.values()]
+        frames = [] if self.frame is None else [self.frame]
+        self.answers, self.said, self.frame = [], {}, None
+        self.news.clear()
+        return texts + frames
+
+
+class Hub:
+    """All pages of a studio. `ask` hands a message of one of them to the host."""
+
+    def __init__(self, ask: Callable[[int, bytes], None]) -> None:
+        self.ask = ask
+        self.members: dict[int, Member] = {}
+        self.driver: int | None = None
+        self.last: dict[str, str] = {}
+        self.last_frame: bytes | None = None
+        self.numbers = itertools.count(1)
+        self.closed = False
+        """Whether the host is gone."""
+
+    # --- coming and going ---------------------------------------------------------------------------
+    def enter(self) -> Member:
+        """A page comes; the first one drives. Raises `WrongUse` where there is no more room."""
+        if len(self.members) >= MOST_WATCHERS:
+            raise WrongUse(f"{MOST_WATCHERS} pages are open, and that is all there is room for")
+        member = Member(next(self.numbers))
+        self.members[member.number] = member
+        if self.driver is None:
+            self.driver = member.number
+        member.said = {kind: self.last[kind] for kind in KINDS if kind in self.last}
+        member.frame = self.last_frame
+        member.news.set()
+        self.tell_roles()
+        return member
+
+    def leave(self, member: Member) -> None:
+        """A page is gone; a driver who leaves lets go."""
+        self.members.pop(member.number, None)
+        if self.driver == member.number:
+            self.driver = None
+        self.tell_roles()
+
+    def tell_roles(self) -> None:
+        """Says to each who drives."""
+        told = {"say": "role", "watchers": len(self.members) - 1, "has_driver": self.driver is not None}
+        for member in self.members.values():
+            role = "driver" if member.number == self.driver else "watcher"
+            member.said["role"] = json.dumps(told | {"role": role})
+            member.news.set()
+
+    # --- what is asked ------------------------------------------------------------------------------
+    def hears(self, member: Member, text: str | bytes) -> None:
+        """What a page asks goes to the host, unless it may not."""
+        try:
+            message = message_of(text)
+            if isinstance(message, Take | Release):
+                self.hand_over(member, isinstance(message, Take))
+                self.answer(member.number, json.dumps({"say": "done", "id": message.id}))
+                return
+            if self.closed:
+                raise WrongUse("the run has ended: start the studio again")
+            if member.number != self.driver and not isinstance(message, Anyone):
+                raise WrongUse("somebody else drives: `take` the wheel first")
+        except WrongUse as error:
+            refused = {"say": "refused", "id": id_of(text), "because": str(error)}
+            self.answer(member.number, json.dumps(refused))
+            return
+        self.ask(member.number, text.encode() if isinstance(text, str) else text)
+
+    def hand_over(self, member: Member, takes: bool) -> None:
+        """One takes the wheel, or lets it go."""
+        if takes:
+            self.driver = member.number
+        elif self.driver == member.number:
+            self.driver = None
+        self.tell_roles()
+
+    # --- what is said -------------------------------------------------------------------------------
+    def told(self, who: int, what: bytes) -> None:
+        """What the host says, to one or to all."""
+        if not what.startswith(b"{"):
+            self.last_frame = what
+            for member in self.members.values():
+                member.frame = what
+                member.news.set()
+            return
+        text = what.decode()
+        if who:
+            self.answer(who, text)
+            return
+        kind = str(json.loads(text)["say"])
+        if kind == "closed" and self.closed:
+            return  # what it said itself says more
+        self.last[kind] = text
+        self.closed = self.closed or kind == "closed"
+        for member in self.members.values():
+            member.said[kind] = text
+            member.news.set()
+
+    def answer(self, who: int, text: str) -> None:
+        """Something to one page, if it is still there."""
+        member = self.members.get(who)
+        if member is not None and len(member.answers) < MOST_ANSWERS:
+            member.answers.append(text)
+            member.news.set()

@@ -1,0 +1,242 @@
+"""A session under a person's hands: set up by names, its world rearranged, what became of it kept."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+from gaitwright.description.load import load_robot
+from gaitwright.errors import WrongUse, unknown
+from gaitwright.ground.scene import Scene
+from gaitwright.ground.terrain import Box
+from gaitwright.learning.equipped import equipped
+from gaitwright.learning.live_sources import Running
+from gaitwright.learning.profile_books import playable
+from gaitwright.locomotion import Brain, Lap
+from gaitwright.missions import Steering
+from gaitwright.model.camera import Camera
+from gaitwright.model.robot import Robot
+from gaitwright.navigation.known_field import is_blocked
+from gaitwright.navigation.room_needed import half_width
+from gaitwright.perception.known_ground import map_of
+from gaitwright.plant.registry import make_plant
+from gaitwright.plant.seeing import SeeingPlant
+from gaitwright.record.recording import Recorder
+from gaitwright.record.scene_of import scene_for
+from gaitwright.session import DT, Push, Session
+from gaitwright.signals import Mission
+from gaitwright.skillbook.writer import Ledger
+from gaitwright.skills.chooser import fixed_skill
+from gaitwright.skills.commanded import guarded
+from gaitwright.skills.library import check_turn, find_skill
+from gaitwright.skills.rule_chooser import RuleChooser
+from gaitwright.stages import Chooser
+from gaitwright.studio.setup import DRIVERS, Setup
+
+FOR_EVER = 1e9
+"""A run in the studio has no end of its own [s]."""
+MOST_BOXES = 2500
+ABORTED = "aborted: the robot is let down"
+
+
+class LiveRun:
+    """One robot in one scene, and a book that it goes by and learns into."""
+
+    def __init__(self, setup: Setup, ledger: Ledger) -> None:
+        """Sets it up; the robot stands and waits. Raises `WrongUse` or `BadFile` for what cannot be had."""
+        check_known("driver", setup.driver, DRIVERS)
+        self.setup, self.ledger = setup, ledger
+        self.robot: Robot = load_robot(setup.robot)
+        self.scene: Scene = scene_for(self.robot, setup.scene, setup.seed)
+        self.boxes = dict(enumerate(self.scene.boxes))
+        self.profiles = (
+            playable(ledger.book, self.robot, str(ledger.path)).profiles if self.has_profiles else {}
+        )
+        self.session = self.begun()
+        self.held: str = ""
+        """The skill that a person holds; empty: rules choose."""
+        self.recorder: Recorder | None = None
+        self.lesson = Running(self.session, self.name)
+        self.lap: Lap | None = None
+        """The last one."""
+        self.lowering: Iterator[Lap] | None = None
+        """What is left of letting the robot down."""
+
+    @property
+    def name(self) -> str:
+        """What lessons say of where they were given."""
+        return f"{self.scene.name} (seed {self.setup.seed})"
+
+    @property
+    def has_profiles(self) -> bool:
+        """Whether the book has torque profiles of this robot."""
+        book = self.ledger.book
+        return bool(book.profiles) and book.robot == self.robot.name
+
+    @property
+    def time(self) -> float:
+        return self.session.measured.time
+
+    def begun(self) -> Session:
+        """The session at its start: the robot stands until somebody says more."""
+        x, y, _ = self.scene.start
+        if is_blocked(map_of(self.scene.at(0.0), self.robot), half_width(self.robot), (x, y)):
+            raise WrongUse(f"the start ({x:g}, {y:g}) is on an obstacle of scene {self.scene.name}")
+        camera = Camera.for_robot(self.robot) if self.setup.sight == "camera" else None
+        chooser = RuleChooser(self.robot, self.ledger.book.rulebook)
+        brain = Brain.of(self.robot, self.scene, chooser, DT, camera=camera)
+        brain = equipped(brain, self.ledger.book, self.profiles, str(self.ledger.path))
+        check_driver(brain, self.setup.driver)
+        plant = make_plant("mujoco", self.robot, self.scene, DT)
+        whole = plant if camera is None else SeeingPlant(plant, camera, self.scene)
+        mission = Mission((), driver=self.setup.driver)
+        session = Session(brain, whole, mission, FOR_EVER, self.setup.seed, lowers=True, attended=True)
+        session.steer(0.0)
+        return session
+
+    def step(self) -> Lap | None:
+        """One lap; `None` where the run is over."""
+        lap = self.session.step() if self.lowering is None else next(self.lowering, None)
+        if lap is not None:
+            self.lap = lap
+            if self.recorder is not None:
+                self.recorder.add(lap, self.session.mind if self.lowering is None else None)
+        return lap
+
+    @property
+    def over(self) -> str | None:
+        """Why the run is over; `None` while it goes on."""
+        if self.lowering is not None:
+            return ABORTED
+        return self.lap.stopped_because if self.lap else None
+
+    # --- where to go --------------------------------------------------------------------------------
+    def go(self, x: float, y: float, then: bool) -> None:
+        """To a place of the field [m]; with `then` after the places that are left."""
+        self.check_on("the goal", x, y)
+        before = self.session.mind.mission.waypoints if then else ()
+        if self.held:
+            self.let_choose()
+        self.session.give(Mission((*before, (x, y)), driver=self.driver))
+
+    def steer(self, forward: float, left: float, turn: float) -> None:
+        """A person's velocity, in the heading frame [m/s, m/s, rad/s], until another one. Raises `WrongUse`
+        for one that is beyond the robot."""
+        guidance = self.session.mind.mission.guidance
+        if isinstance(guidance, Steering) and guidance.velocities == ((forward, left, turn),):
+            return  # asked again, so that somebody is heard
+        self.session.steer(forward, left, turn)
+
+    def abort(self) -> None:
+        """The robot comes to a stand and is let down; its motors go off."""
+        if self.over is None:
+            self.lowering = self.session.lower()
+
+    @property
+    def driver(self) -> str:
+        """Who was asked to drive."""
+        return self.session.mind.mission.driver
+
+    def drive(self, driver: str) -> None:
+        """Another driver from the next lap on."""
+        check_known("driver", driver, DRIVERS)
+        check_driver(self.session.brain, driver)
+        self.session.drive(driver)
+        self.setup = replace(self.setup, driver=driver)
+
+    def hold(self, skill: str, speed: float | None) -> None:
+        """One skill, at a speed [m/s], straight on, until somebody says more."""
+        chooser = fixed_skill(self.robot, skill, speed, 0.0, None, "")
+        check_turn(find_skill(skill, self.robot), self.robot, chooser.skill_call.turn)
+        self.session.give(Mission((), driver=self.driver))
+        self.choose_by(guarded(chooser, self.robot))
+        self.held = skill
+
+    def let_choose(self) -> None:
+        """Rules choose the skills again."""
+        self.held = ""
+        self.lesson.drive_by(self.ledger.book.rulebook)
+
+    def choose_by(self, chooser: Chooser) -> None:
+        """Another chooser from the next lap on."""
+        session = self.session
+        session.brain = replace(session.brain, chooser=chooser)
+        session.mind = session.mind._replace(chosen_at=-math.inf)
+
+    def push(self, impulse: float, direction: float) -> None:
+        """A push now; `direction` in the world [rad]."""
+        from_ahead = math.degrees(direction) - math.degrees(self.yaw)
+        self.session.push(Push(impulse, from_ahead, at=self.time))
+
+    @property
+    def yaw(self) -> float:
+        """Where the robot looks, in the world [rad]."""
+        w, x, y, z = self.session.measured.orientation_wb.tolist()
+        return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+
+    # --- the world ----------------------------------------------------------------------------------
+    def place(self, box: Box) -> int:
+        """Puts a box into the scene; its number. Raises `WrongUse` where it would be in the robot."""
+        if len(self.boxes) >= MOST_BOXES:
+            raise WrongUse(f"a scene in the studio has at most {MOST_BOXES} boxes")
+        number = max(self.boxes, default=-1) + 1
+        self.arrange({**self.boxes, number: box}, box)
+        return number
+
+    def move(self, number: int, x: float, y: float, yaw: float | None) -> None:
+        """Takes a box to another place."""
+        box = self.box(number)
+        moved = replace(box, x=x, y=y, yaw=box.yaw if yaw is None else yaw)
+        self.arrange({**self.boxes, number: moved}, moved)
+
+    def remove(self, number: int) -> None:
+        """Takes a box away. Raises `WrongUse` where the robot stands on it."""
+        self.check_clear(self.box(number))
+        self.arrange({name: box for name, box in self.boxes.items() if name != number})
+
+    def box(self, number: int) -> Box:
+        if number not in self.boxes:
+            raise WrongUse(f"there is no box {number} in the scene")
+        return self.boxes[number]
+
+    def arrange(self, boxes: dict[int, Box], new: Box | None = None) -> None:
+        """The scene with other boxes."""
+        if new is not None:
+            self.check_on("the box", new.x, new.y)
+            self.check_clear(new)
+        scene = replace(self.scene, boxes=tuple(boxes.values()))
+        self.session.rearrange(scene)
+        self.scene, self.boxes = scene, boxes
+
+    def check_clear(self, box: Box) -> None:
+        """Raises `WrongUse` for a box that is where the robot is."""
+        x, y = self.session.measured.position_w[:2].tolist()
+        room = 0.6 * self.robot.body_length + half_width(self.robot)
+        dx, dy = x - box.x, y - box.y
+        c, s = math.cos(box.yaw), math.sin(box.yaw)
+        off = max(abs(c * dx + s * dy) - box.lx / 2, 0.0), max(abs(c * dy - s * dx) - box.ly / 2, 0.0)
+        if math.hypot(*off) < room:
+            raise WrongUse(f"the robot is there: a box keeps {room:.2f} m from its middle")
+
+    def check_on(self, what: str, x: float, y: float) -> None:
+        """Raises `WrongUse` for a place outside the field."""
+        x_min, y_min, x_max, y_max = self.scene.bounds
+        if not (x_min < x < x_max and y_min < y < y_max):
+            raise WrongUse(
+                f"{what} ({x:.2f}, {y:.2f}) lies outside the field, which goes from ({x_min:g}, {y_min:g}) "
+                f"to ({x_max:g}, {y_max:g})"
+            )
+
+
+def check_known(what: str, asked: str, known: tuple[str, ...]) -> None:
+    """Raises `WrongUse` for a name that there is not."""
+    if asked not in known:
+        raise unknown(what, asked, known)
+
+
+def check_driver(brain: Brain, driver: str) -> None:
+    """Raises `WrongUse` for a driver that this brain has not, and says how to get it."""
+    if driver not in brain.controllers:
+        raise WrongUse(
+            f"there is no driver {driver} here: it plays the profiles of a skillbook, and this one has none "
+            f"of {brain.robot.name}; `gaitwright teach --lesson profiles` makes them"
+        )

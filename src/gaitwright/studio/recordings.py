@@ -1,0 +1,49 @@
+"""Recordings of a studio in a folder: kept under names of their own, listed, found again."""
+
+import re
+from datetime import datetime
+from pathlib import Path
+from typing import Any, Protocol
+
+from gaitwright.errors import WrongUse
+
+NAME = re.compile(r"[a-z0-9][a-z0-9_.-]{0,99}\.(npz|mcap|html)")
+"""What a file of this folder may be called."""
+MOST = 1000
+
+
+class Kept(Protocol):
+    """A recording, to one who only keeps it."""
+
+    def save(self, path: Path) -> Path: ...
+
+
+class Shelf:
+    """A folder of recordings."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def keep(self, recording: Kept, robot: str) -> str:
+        """Writes a recording; its name. Nothing that is there is written over."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        stem = f"{datetime.now():%Y-%m-%d_%H-%M-%S}_{robot}"
+        stem = re.sub(r"[^a-z0-9_.-]", "-", stem.lower())
+        names = (stem, *(f"{stem}_{k}" for k in range(2, MOST)))
+        name = next(one for one in names if not (self.folder / f"{one}.npz").exists())
+        recording.save(self.folder / f"{name}.npz")
+        return f"{name}.npz"
+
+    def listed(self) -> list[dict[str, Any]]:
+        """Name and size of each, the newest first."""
+        if not self.folder.is_dir():
+            return []
+        files = [path for path in self.folder.iterdir() if NAME.fullmatch(path.name) and path.is_file()]
+        files.sort(key=lambda path: path.stat().st_mtime, reverse=True)
+        return [{"name": path.name, "bytes": path.stat().st_size} for path in files[:MOST]]
+
+    def path(self, name: str) -> Path:
+        """The file of that name. Raises `WrongUse` for one that is not there, or no name of this folder's."""
+        if not NAME.fullmatch(name) or not (self.folder / name).is_file():
+            raise WrongUse(f"there is no recording {name[:100]!r}")
+        return self.folder / name

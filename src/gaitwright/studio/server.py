@@ -1,0 +1,145 @@
+"""The studio's one port: the page, its live connection, recordings to take home (Starlette).
+
+Whoever asks must name this machine as the host, come from the studio's own page where a browser says where it
+comes from, and know the token, which only the address has that `gaitwright studio` prints.
+"""
+
+import asyncio
+import hmac
+from pathlib import Path
+from urllib.parse import urlsplit
+
+from starlette.applications import Starlette
+from starlette.exceptions import HTTPException
+from starlette.requests import HTTPConnection, Request
+from starlette.responses import FileResponse, Response
+from starlette.routing import Mount, Route, WebSocketRoute
+from starlette.staticfiles import StaticFiles
+from starlette.types import ASGIApp, Receive, Scope, Send
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from gaitwright.errors import WrongUse
+from gaitwright.studio.hub import Hub, Member
+from gaitwright.studio.recordings import Shelf
+
+LOOPBACK = frozenset({"127.0.0.1", "localhost", "::1"})
+POLICY = (
+    "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
+    "media-src 'self' blob:; connect-src 'self'; frame-ancestors 'none'; base-uri 'none'"
+)
+HEADERS = [
+    (b"content-security-policy", POLICY.encode()),
+    (b"x-content-type-options", b"nosniff"),
+    (b"referrer-policy", b"no-referrer"),
+    (b"cache-control", b"no-cache"),
+]
+NO_ENTRY, FULL, DENIED = 403, 503, 4403
+"""Answers: of HTTP, and of a socket that is closed before it opens."""
+
+
+def application(hub: Hub, page: Path, shelf: Shelf, token: str, hosts: frozenset[str] = LOOPBACK) -> ASGIApp:
+    """The studio as a web application. `hosts`: by what names it may be called."""
+
+    async def index(request: Request) -> Response:
+        return FileResponse(page / "index.html")
+
+    async def recording(request: Request) -> Response:
+        check_token(request, token)
+        try:
+            return FileResponse(shelf.path(request.path_params["name"]))
+        except WrongUse as error:
+            raise HTTPException(404, str(error)) from None
+
+    async def live(socket: WebSocket) -> None:
+        if not hmac.compare_digest(socket.query_params.get("token", ""), token):
+            await socket.close(DENIED)
+            return
+        try:
+            member = hub.enter()
+        except WrongUse as error:
+            await socket.close(DENIED, str(error))
+            return
+        await socket.accept()
+        await converse(hub, member, socket)
+
+    routes = [
+        Route("/", index),
+        Route("/recordings/{name}", recording),
+        WebSocketRoute("/live", live),
+        Mount("/", StaticFiles(directory=page)),
+    ]
+    return Guarded(Starlette(routes=routes), hosts)
+
+
+async def converse(hub: Hub, member: Member, socket: WebSocket) -> None:
+    """Tells a page what there is to tell and hears it, until it is gone."""
+    teller = asyncio.create_task(tell(member, socket))
+    try:
+        while True:
+            message = await socket.receive()
+            if message["type"] == "websocket.disconnect":
+                break
+            hub.hears(member, message.get("text") or message.get("bytes") or "")
+    except (WebSocketDisconnect, RuntimeError):
+        pass
+    finally:
+        teller.cancel()
+        hub.leave(member)
+
+
+async def tell(member: Member, socket: WebSocket) -> None:
+    """Sends what is new, as fast as the page takes it."""
+    try:
+        while True:
+            await member.news.wait()
+            for one in member.take():
+                await (socket.send_text(one) if isinstance(one, str) else socket.send_bytes(one))
+    except (WebSocketDisconnect, RuntimeError):
+        pass
+
+
+def check_token(request: HTTPConnection, token: str) -> None:
+    """Refuses who does not know the token."""
+    if not hmac.compare_digest(request.query_params.get("token", ""), token):
+        raise HTTPException(NO_ENTRY, "the address lacks the token that `gaitwright studio` printed")
+
+
+class Guarded:
+    """An application behind a look at where a request comes from and where it means to go."""
+
+    def __init__(self, app: ASGIApp, hosts: frozenset[str]) -> None:
+        self.app, self.hosts = app, hosts
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] == "lifespan":
+            await self.app(scope, receive, send)
+            return
+        headers = {name.lower(): value.decode("latin-1") for name, value in scope["headers"]}
+        if not self.is_welcome(headers.get(b"host", ""), headers.get(b"origin")):
+            await self.refuse(scope, receive, send)
+            return
+
+        async def with_headers(message) -> None:
+            if message["type"] == "http.response.start":
+                message["headers"] = [*message["headers"], *HEADERS]
+            await send(message)
+
+        await self.app(scope, receive, with_headers)
+
+    def is_welcome(self, host: str, origin: str | None) -> bool:
+        """Whether a host is this one by a name that it has, and an origin, where there is one, its page."""
+        try:
+            name = urlsplit(f"//{host}").hostname
+            came_from = None if origin is None else urlsplit(origin)
+        except ValueError:
+            return False
+        if name not in self.hosts:
+            return False
+        return came_from is None or (came_from.scheme in ("http", "https") and came_from.netloc == host)
+
+    async def refuse(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] == "websocket":
+            await send({"type": "websocket.close", "code": DENIED})
+            return
+        said = "this request names another host, or comes from another page, than the studio's"
+        await Response(said, NO_ENTRY)(scope, receive, send)
