@@ -5,6 +5,7 @@ in one does not take the other along. What goes through the pipe is bytes: a num
 (`FROM`), then a message as JSON, or a frame.
 """
 
+import signal
 import time
 from pathlib import Path
 from typing import Any
@@ -19,7 +20,6 @@ from gaitwright.skills.situation import FOREST
 from gaitwright.studio.messages import id_of, message_of
 from gaitwright.studio.room import Room
 from gaitwright.studio.setup import EVERYBODY, FROM, Ends, Setup
-from gaitwright.workers import obey
 
 FRAMES, STATUSES, SCANS, MAPS = 60.0, 10.0, 10.0, 2.0
 """So many a second."""
@@ -31,7 +31,7 @@ BEHIND = 0.1
 
 def host(pipe: Ends, setup: Setup, book: Path, folder: Path, begins: bool) -> None:
     """Runs until the other end of the pipe is gone; says why where it cannot."""
-    obey()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # for the server to act on: it closes the pipe
     try:
         if begins and not book.exists():
             folder.mkdir(parents=True, exist_ok=True)

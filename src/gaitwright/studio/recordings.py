@@ -3,7 +3,7 @@
 import re
 from datetime import datetime
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 from gaitwright.errors import WrongUse
 
@@ -12,6 +12,7 @@ NAME = re.compile(r"[a-z0-9][a-z0-9_.-]{0,99}\.(npz|mcap|html)")
 MOST = 1000
 
 
+@runtime_checkable
 class Kept(Protocol):
     """A recording, to one who only keeps it."""
 

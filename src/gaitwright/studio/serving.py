@@ -4,9 +4,10 @@ import asyncio
 import json
 import multiprocessing
 import secrets
+import signal
 import socket
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,6 +21,8 @@ from gaitwright.studio.recordings import Shelf
 from gaitwright.studio.server import LOOPBACK, application
 from gaitwright.studio.setup import EVERYBODY, FROM, Ends, Setup, begin
 
+SETTLES = 10.0
+"""The robot's process may take so long to end [s]."""
 CLOSED = b'{"say":"closed","because":"the process with the robot has ended unexpectedly"}'
 
 
@@ -60,14 +63,23 @@ def serve(what: Serving, opened: Callable[[str], None]) -> None:
         try:
             name = f"[{what.address}]" if ":" in what.address else what.address
             opened(f"http://{name}:{port}/?token={token}")
-            hub = asyncio.run(served(what, token, ours, place))
-            if hub.closed and "hello" not in hub.last:
-                raise ended(hub.last["closed"])
+            hub = until_told(served(what, token, ours, place))
         finally:
             ours.tells.close()
-            process.join(5.0)
+            process.join(SETTLES)  # it keeps what was recorded
             if process.is_alive():
                 process.terminate()
+    if hub is not None and hub.closed and "hello" not in hub.last:
+        raise ended(hub.last["closed"])
+
+
+def until_told(serving: Coroutine[None, None, Hub]) -> Hub | None:
+    """Serves until Ctrl-C, or until it is asked to end; `None` then."""
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        return asyncio.run(serving)
+    except KeyboardInterrupt:
+        return None
 
 
 async def served(what: Serving, token: str, pipe: Ends, place: socket.socket) -> Hub:

@@ -1,0 +1,3 @@
+"""What the tests of the studio share."""
+
+from page_fixtures import browser, line, page_is_built, studio  # noqa: F401

@@ -1,0 +1,241 @@
+"""A room without a page: what is asked is done, and what cannot be is refused and changes nothing."""
+
+import json
+import math
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gaitwright.errors import GaitwrightError, WrongUse
+from gaitwright.record.metrics import digest
+from gaitwright.record.recording import load
+from gaitwright.skillbook.book import Skillbook
+from gaitwright.skillbook.writer import open_for_learning
+from gaitwright.skills.situation import FOREST
+from gaitwright.studio import messages as m
+from gaitwright.studio.frames import LAYOUT, columns_of, row_of
+from gaitwright.studio.room import Room
+from gaitwright.studio.setup import DRIVERS, Setup
+
+
+@pytest.fixture
+def said() -> list[dict]:
+    return []
+
+
+@pytest.fixture
+def room(tmp_path: Path, said: list[dict]) -> Iterator[Room]:
+    book = tmp_path / "studio.skills"
+    Skillbook.new(FOREST, "go2", "studio", 0).save(book)
+    with open_for_learning(book) as ledger:
+        room = Room(Setup(driver="numerical"), ledger, tmp_path, said.append)
+        yield room
+        room.close()
+
+
+def laps(room: Room, seconds: float) -> None:
+    for _ in range(round(seconds / 0.002)):
+        if not room.lap():
+            break
+
+
+def place(room: Room) -> np.ndarray:
+    return room.run.session.measured.position_w.copy()
+
+
+# --- where to go ------------------------------------------------------------------------------------
+def test_it_stands_and_waits_until_somebody_says_more(room: Room):
+    laps(room, 1.0)
+    assert room.status()["skill"] == "stand" and room.status()["over"] is None
+    assert np.linalg.norm(place(room)[:2]) < 0.2
+
+
+def test_it_goes_to_a_place_and_waits_there_for_another(room: Room):
+    room.hears(m.Go(x=0.8, y=0.0))
+    laps(room, 8.0)
+    status = room.status()
+    assert status["arrived"] and status["over"] is None and status["skill"] == "stand"
+    assert math.dist(place(room)[:2], (0.8, 0.0)) < 0.4
+    room.hears(m.Go(x=0.0, y=0.0))
+    assert room.status()["goal"] == [0.0, 0.0] and not room.status()["arrived"]
+
+
+def test_places_are_gone_to_one_after_the_other(room: Room):
+    room.hears(m.Go(x=1.0, y=0.0))
+    room.hears(m.Go(x=1.0, y=1.0, then=True))
+    assert room.run.session.mind.mission.waypoints == ((1.0, 0.0), (1.0, 1.0))
+
+
+def test_it_goes_as_a_person_steers_and_stands_when_she_is_not_heard(room: Room, monkeypatch):
+    now = [100.0]
+    monkeypatch.setattr("gaitwright.studio.room.monotonic", lambda: now[0])
+    room.hears(m.Steer(forward=0.3))
+    laps(room, 1.5)
+    assert place(room)[0] > 0.1
+    now[0] += 0.2
+    room.watch_over()
+    assert room.status()["skill"] != "stand"
+    now[0] += 0.2
+    room.watch_over()
+    laps(room, 0.1)
+    assert room.status()["skill"] == "stand"
+
+
+def test_a_skill_is_held_until_rules_choose_again(room: Room):
+    room.hears(m.Skill(name="pace", speed=0.4))
+    laps(room, 1.0)
+    assert room.status()["skill"] == room.status()["held"] == "pace"
+    room.hears(m.Skill(name=""))
+    laps(room, 1.0)
+    assert not room.status()["held"] and room.status()["skill"] != "pace"
+
+
+@pytest.mark.parametrize("driver", ["programmed", "kinematic", "numerical", "hybrid"])
+def test_every_driver_takes_over_while_it_walks(room: Room, driver: str):
+    room.hears(m.Skill(name="walk"))
+    laps(room, 0.5)
+    room.hears(m.Drive(driver=driver))
+    laps(room, 0.1)
+    assert room.status()["controller"] == driver
+    assert room.ticks[driver] > 0
+
+
+@pytest.mark.parametrize(
+    ("message", "sentence"),
+    [
+        (m.Go(x=99.0, y=0.0), "outside the field"),
+        (m.Steer(forward=9.0), "m/s"),
+        (m.Skill(name="fly"), "no skill 'fly'"),
+        (m.Skill(name="walk", speed=5.0), "walk"),
+        (m.Drive(driver="learned"), "there is no driver learned here"),
+        (m.Drive(driver="nobody"), "no driver 'nobody'"),
+        (m.Reset(scene="nowhere"), "no scene 'nowhere'"),
+        (m.Reset(robot="/etc/passwd"), "passwd"),
+        (m.PlaceBox(x=0.0, y=0.1, lx=0.3, ly=0.3, height=0.2), "the robot is there"),
+        (m.Move(thing=999, x=0.0, y=0.0), "no box 999"),
+        (m.Step(ticks=5), "pause first"),
+        (m.Record(on=False), "nothing is recorded"),
+        (m.Keep(), "nothing to keep"),
+        (m.Forget(), "nothing was taught"),
+        (m.Right(skill="walk", about="nonsense"), "no number 'nonsense'"),
+    ],
+)
+def test_what_cannot_be_done_changes_nothing(room: Room, message: m.Message, sentence: str):
+    laps(room, 0.1)
+    before, mission = room.status(), room.run.session.mind.mission
+    with pytest.raises(GaitwrightError, match=sentence):
+        room.hears(message)
+    assert room.status() == before and room.run.session.mind.mission == mission
+
+
+# --- time -------------------------------------------------------------------------------------------
+def test_time_goes_on_step_by_step_where_it_stands(room: Room):
+    room.hears(m.Pause())
+    before = room.run.time
+    room.hears(m.Step(ticks=5))
+    assert room.run.time == pytest.approx(before + 0.01)
+
+
+def test_an_aborted_robot_comes_down_and_its_motors_go_off(room: Room):
+    room.hears(m.Skill(name="walk"))
+    laps(room, 1.0)
+    high = place(room)[2]
+    room.hears(m.Abort())
+    laps(room, 8.0)
+    assert "aborted" in room.status()["over"] and not room.status()["fell"]
+    assert place(room)[2] < 0.6 * high
+    assert room.run.session.closed
+
+
+def test_the_same_words_make_the_same_run(room: Room):
+    def run() -> str:
+        room.hears(m.Reset(seed=4, driver="numerical"))
+        room.hears(m.Go(x=1.0, y=0.0))
+        rows = []
+        for _ in range(300):
+            room.lap()
+            assert room.run.lap is not None
+            rows.append(row_of(room.run.lap, room.run.session.mind.memories, DRIVERS))
+        return digest([np.array(rows)])
+
+    assert run() == run()
+
+
+# --- the world --------------------------------------------------------------------------------------
+def test_a_box_is_placed_moved_and_taken_away_while_it_walks(room: Room, said: list[dict]):
+    room.hears(m.Go(x=4.0, y=0.0))
+    laps(room, 0.5)
+    number = room.hears(m.PlaceBox(x=2.0, y=0.0, lx=0.4, ly=1.0, height=0.6))["thing"]
+    shown = {box["id"]: box for box in said[-1]["boxes"]}
+    assert shown[number]["z"] == pytest.approx(0.3)
+    laps(room, 0.2)
+    assert any(abs(y) > 0.4 for _, y in room.status()["route"]), "it goes round the box"
+    room.hears(m.Move(thing=number, x=2.0, y=3.0))
+    laps(room, 0.2)
+    assert room.run.boxes[number].y == 3.0
+    room.hears(m.Remove(thing=number))
+    assert number not in {box["id"] for box in said[-1]["boxes"]}
+
+
+def test_a_push_is_felt(room: Room):
+    laps(room, 0.2)
+    room.hears(m.Push(impulse=0.4, direction=math.pi / 2))
+    laps(room, 0.1)
+    assert room.run.session.measured.velocity_w[1] > 0.1
+
+
+# --- what is kept -----------------------------------------------------------------------------------
+def test_a_recording_holds_what_happened_between_on_and_off(room: Room):
+    room.hears(m.Record(on=True))
+    laps(room, 0.4)
+    name = room.hears(m.Record(on=False))["recording"]
+    assert len(load(room.shelf.path(name))) == 200
+    assert room.hears(m.Recordings())["recordings"][0]["name"] == name
+
+
+def test_a_lesson_is_tried_first_and_in_the_book_once_it_is_kept(room: Room, said: list[dict]):
+    room.hears(m.Go(x=3.0, y=0.0))
+    laps(room, 0.6)
+    tried = room.hears(m.Right(skill="pace"))
+    assert tried["followed"] and "pace" in tried["sentence"]
+    assert not room.ledger.book.rulebook.rules, "nothing is learned yet"
+    lesson = room.hears(m.Keep())["lesson"]
+    assert [rule["skill"] for rule in said[-1]["rules"]] == ["pace"]
+    laps(room, 1.0)
+    status = room.status()
+    assert status["skill"] == "pace" and status["rule"] == "pace"
+    assert any("pace" in sentence for sentence in room.hears(m.Why())["sentences"])
+    with pytest.raises(WrongUse, match="nothing to keep"):
+        room.hears(m.Keep())
+    assert room.hears(m.Forget(lesson=lesson))["lesson"] == lesson
+    laps(room, 1.0)
+    assert room.status()["skill"] != "pace"
+
+
+# --- what is shown ----------------------------------------------------------------------------------
+@pytest.mark.parametrize("sight", ["known", "camera"])
+@pytest.mark.parametrize("scene", ["stairs", "holes", "crossing"])
+def test_all_that_is_said_is_json_with_numbers(room: Room, said: list[dict], scene: str, sight: str):
+    room.hears(m.Reset(scene=scene, sight=sight))
+    laps(room, 0.3)
+    for say in (room.say_scan, room.say_seen):
+        say()
+    said.append(room.status())
+    for message in said:
+        json.dumps(message, allow_nan=False)
+    kinds = {message["say"] for message in said}
+    assert kinds >= {"hello", "world", "rules", "scan", "seen", "status"}
+
+
+def test_a_row_has_its_columns(room: Room):
+    laps(room, 0.1)
+    frame = room.frame(3)
+    assert frame is not None and room.run.lap is not None
+    assert sum(int(column["size"]) for column in columns_of(4)) == LAYOUT.size(4)
+    row = np.frombuffer(frame[24:], "<f4")
+    where = LAYOUT.slices(4)
+    assert row[where["position_w"]] == pytest.approx(room.run.lap.sensed.position_w, abs=1e-6)
+    assert row[where["q"]] == pytest.approx(room.run.lap.sensed.q.ravel(), abs=1e-6)
+    assert np.isfinite(np.delete(row, where["footholds_w"])).all()
