@@ -5,7 +5,7 @@ import { Blend } from "../blend";
 import { fromBase64 } from "../bytes";
 import { History } from "../history";
 import { Layout } from "../layout";
-import type { Answer, Embedded, Hello, ReplayEvent, Status, World } from "../protocol";
+import type { Answer, Embedded, Hello, ReplayEvent, Role, Status, World } from "../protocol";
 import type { Link, Source } from "../source";
 import type { Clock } from "./clock";
 
@@ -18,6 +18,8 @@ export class Player implements Source {
   readonly world: ReadonlySignal<World>;
   readonly status: ReadonlySignal<Status>;
   readonly layout: ReadonlySignal<Layout>;
+  readonly role = signal<Role>({ say: "role", role: "watcher", watchers: 0, has_driver: false });
+  readonly closed = signal("");
   readonly moved = nothing;
   readonly scan = nothing;
   readonly seen = nothing;
@@ -105,9 +107,9 @@ function lastBefore(events: ReplayEvent[], time: number): number {
 }
 
 function helloOf(recording: Embedded): Hello {
-  const none = { robots: [], scenes: [], skills: [], modes: [], cycles: [] };
+  const none = { skills: [], modes: [] };
   const { columns, drivers } = recording;
-  return { say: "hello", version: 1, role: "watcher", columns, choices: { ...none, drivers } };
+  return { say: "hello", version: 1, columns, choices: { ...none, drivers } };
 }
 
 function statusOf(event: ReplayEvent | null, recording: Embedded, drivers: string[]): Status {
@@ -116,7 +118,7 @@ function statusOf(event: ReplayEvent | null, recording: Embedded, drivers: strin
     say: "status", time: event?.time ?? 0, paused: false, pace: 1, real_time: 1, mode: "plan", driver,
     controller: driver, skill: event?.skill ?? "", velocity: [0, 0, 0], because: event?.because ?? "",
     rule: event?.rule ?? "", route: [], goal: recording.world.goal, no_way: null, pause: null, halt: null,
-    over: null, arrived: false, fell: false, faults: [], has_driver: false, watchers: 0, recording: false,
+    over: null, arrived: false, fell: false, faults: [], recording: false,
     obstacle: "", share: {},
   };
 }
