@@ -4,6 +4,7 @@ import type { ComponentType } from "preact";
 import { DrivePanel } from "./drive/panel";
 import { WorldPanel } from "./drive/world-panel";
 import { PlotsPanel } from "./plots/panel";
+import { RulesPanel } from "./rules/panel";
 import type { Source } from "./source";
 import { StatusPanel } from "./state/panel";
 
@@ -20,5 +21,6 @@ export const panels: Panel[] = [
   { id: "drive", title: "Drive", dock: "left", view: DrivePanel },
   { id: "world", title: "World", dock: "left", view: WorldPanel },
   { id: "status", title: "Status", dock: "right", view: StatusPanel },
+  { id: "rules", title: "Rules", dock: "right", view: RulesPanel },
   { id: "plots", title: "Plots", dock: "right", view: PlotsPanel, replay: true },
 ];
