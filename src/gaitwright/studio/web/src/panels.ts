@@ -7,6 +7,7 @@ import { PlotsPanel } from "./plots/panel";
 import { RulesPanel } from "./rules/panel";
 import type { Source } from "./source";
 import { StatusPanel } from "./state/panel";
+import { TeachPanel } from "./teach/panel";
 
 export interface Panel {
   id: string;
@@ -20,6 +21,7 @@ export interface Panel {
 export const panels: Panel[] = [
   { id: "drive", title: "Drive", dock: "left", view: DrivePanel },
   { id: "world", title: "World", dock: "left", view: WorldPanel },
+  { id: "teach", title: "Teach", dock: "left", view: TeachPanel },
   { id: "status", title: "Status", dock: "right", view: StatusPanel },
   { id: "rules", title: "Rules", dock: "right", view: RulesPanel },
   { id: "plots", title: "Plots", dock: "right", view: PlotsPanel, replay: true },

@@ -82,10 +82,10 @@ function RuleRow({ source, rules, rule }: { source: Source; rules: Rules; rule: 
         </span>
         <Progress status={rule.status} />
         <span class="rule-count right" title={`seen right in ${rule.right} situations`}>
-          {rule.right}
+          {rule.right ? `+${rule.right}` : ""}
         </span>
         <span class="rule-count wrong" title={`seen wrong in ${rule.wrong} situations`}>
-          {rule.wrong}
+          {rule.wrong ? `−${rule.wrong}` : ""}
         </span>
       </button>
       {open && <Detail source={source} rules={rules} rule={rule} lit={lit} />}
