@@ -1,6 +1,7 @@
 // The panels of the docks. A panel is registered by one line here.
 
 import type { ComponentType } from "preact";
+import { CurvesPanel } from "./curves/panel";
 import { DrivePanel } from "./drive/panel";
 import { WorldPanel } from "./drive/world-panel";
 import { PlotsPanel } from "./plots/panel";
@@ -24,5 +25,6 @@ export const panels: Panel[] = [
   { id: "teach", title: "Teach", dock: "left", view: TeachPanel },
   { id: "status", title: "Status", dock: "right", view: StatusPanel },
   { id: "rules", title: "Rules", dock: "right", view: RulesPanel },
+  { id: "curves", title: "Curves", dock: "right", view: CurvesPanel },
   { id: "plots", title: "Plots", dock: "right", view: PlotsPanel, replay: true },
 ];
