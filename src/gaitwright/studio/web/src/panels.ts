@@ -4,6 +4,7 @@ import type { ComponentType } from "preact";
 import { CurvesPanel } from "./curves/panel";
 import { DrivePanel } from "./drive/panel";
 import { WorldPanel } from "./drive/world-panel";
+import { MapPanel } from "./map/panel";
 import { PlotsPanel } from "./plots/panel";
 import { RulesPanel } from "./rules/panel";
 import type { Source } from "./source";
@@ -26,5 +27,6 @@ export const panels: Panel[] = [
   { id: "status", title: "Status", dock: "right", view: StatusPanel },
   { id: "rules", title: "Rules", dock: "right", view: RulesPanel },
   { id: "curves", title: "Curves", dock: "right", view: CurvesPanel },
+  { id: "map", title: "Map", dock: "right", view: MapPanel },
   { id: "plots", title: "Plots", dock: "right", view: PlotsPanel, replay: true },
 ];

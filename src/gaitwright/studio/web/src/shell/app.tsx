@@ -3,6 +3,7 @@
 import { useMemo } from "preact/hooks";
 import { tools } from "../drive/hand";
 import { useHands } from "../drive/panel";
+import { useMap } from "../map/panel";
 import { panels } from "../panels";
 import type { Source } from "../source";
 import { Stage } from "../view/stage";
@@ -13,6 +14,7 @@ import { dockWidth } from "./docks";
 
 export function App({ source }: { source: Source }) {
   useHands(source);
+  useMap(source);
   const hands = useMemo(() => tools(source), [source]);
   const style = { "--left": `${dockWidth("left")}px`, "--right": `${dockWidth("right")}px` };
   return (

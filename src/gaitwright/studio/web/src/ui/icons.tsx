@@ -21,6 +21,7 @@ const PATHS: Record<string, string> = {
   four: "M2.5 3.5h11v9h-11zM8 3.5v9M2.5 8h11",
   layers: "M8 2.8 14 6 8 9.2 2 6zM2.6 9 8 11.9 13.4 9",
   cross: "M4 4l8 8M12 4l-8 8",
+  minus: "M3.5 8h9",
   plus: "M8 3.5v9M3.5 8h9",
   up: "M8 13V4M4.5 7 8 3.5 11.5 7",
 };
