@@ -23,6 +23,7 @@ const PATHS: Record<string, string> = {
   cross: "M4 4l8 8M12 4l-8 8",
   minus: "M3.5 8h9",
   plus: "M8 3.5v9M3.5 8h9",
+  down: "M8 3v7.5M4.5 7.2 8 10.7l3.5-3.5M3 13.2h10",
   up: "M8 13V4M4.5 7 8 3.5 11.5 7",
 };
 

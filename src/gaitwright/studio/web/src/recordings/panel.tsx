@@ -1,0 +1,96 @@
+// Recordings: one that is being made, and those that were kept, to take home and to play.
+
+import { useEffect, useState } from "preact/hooks";
+import type { Recordings } from "../protocol";
+import { drives, type Source } from "../source";
+import { ask } from "../ui/ask";
+import { Section } from "../ui/controls";
+import { Icon } from "../ui/icons";
+import { addressOf, duration, readName, size } from "./names";
+import { openReplay, replayer } from "./replay";
+import "./recordings.css";
+
+export function RecordingsPanel({ source }: { source: Source }) {
+  const recording = source.status.value?.recording ?? false;
+  const link = source.link.value;
+  useEffect(() => {
+    if (link === "open" && !recording) void source.send({ do: "recordings" });
+  }, [source, recording, link]);
+  const kept = source.recordings.value?.names ?? [];
+  return (
+    <>
+      <Recorder source={source} recording={recording} />
+      <Section title="Kept" aside={kept.length ? `${kept.length}, the last first` : ""}>
+        {!kept.length && <p class="faint about">There is none yet.</p>}
+        <ul class="kept" data-testid="recordings">
+          {kept.map((one) => (
+            <Kept key={one.name} {...one} />
+          ))}
+        </ul>
+      </Section>
+    </>
+  );
+}
+
+function Recorder({ source, recording }: { source: Source; recording: boolean }) {
+  const [because, setBecause] = useState("");
+  const [last, setLast] = useState("");
+  const driving = drives(source);
+  const turn = async () => {
+    const { more, because } = await ask<{ recording?: string }>(source, { do: "record", on: !recording });
+    setBecause(because);
+    setLast(more?.recording ?? "");
+  };
+  return (
+    <Section title="Record">
+      <div class="recorder">
+        <button
+          class={`icon-text ${recording ? "recording" : ""}`}
+          data-testid="record-turn"
+          aria-pressed={recording}
+          disabled={!driving}
+          onClick={() => void turn()}
+        >
+          <Icon name={recording ? "stop" : "record"} />
+          {recording ? "End and keep" : "Record"}
+        </button>
+        <span class={recording ? "recorded on" : "recorded"} data-testid="recorded">
+          {duration(source.status.value?.recorded ?? 0)}
+        </span>
+      </div>
+      {because && (
+        <p class="refusal" data-testid="record-refused">
+          {because}
+        </p>
+      )}
+      {last && !recording && <p class="faint about">Kept as {last}</p>}
+    </Section>
+  );
+}
+
+function Kept({ name, bytes }: Recordings["names"][number]) {
+  const { day, time, what, kind } = readName(name);
+  const canPlay = replayer.value !== null;
+  return (
+    <li data-testid="recording" data-name={name}>
+      <span class="kept-name" title={name}>
+        <strong>{what}</strong> {time}
+        <span class="kept-more">
+          {[day, kind, size(bytes)].filter(Boolean).join(" · ")}
+        </span>
+      </span>
+      <button
+        class="icon"
+        data-testid="play"
+        disabled={!canPlay}
+        title={canPlay ? "Play it" : "There is no page to play it yet"}
+        onClick={() => openReplay(name)}
+      >
+        <Icon name="play" />
+      </button>
+      <a class="icon-link" href={addressOf(name, location.search)} download={name} title="Take it home" data-testid="download">
+        <Icon name="down" />
+      </a>
+    </li>
+  );
+}
