@@ -4,6 +4,7 @@ import type { Source } from "../source";
 import type { Engine } from "../view/engine";
 import { taken } from "../view/camera-hand";
 import type { Rig } from "../view/rig";
+import { watched } from "../view/settings";
 import type { Tools } from "../view/stage";
 import { BoxDrag } from "./box-drag";
 import { aim, pick, type Picked } from "./pick";
@@ -66,6 +67,7 @@ function hold(source: Source, engine: Engine, place: HTMLElement, rig: Rig): () 
     from = null;
   };
   const click = (event: PointerEvent, picked: Picked | null) => {
+    if (picked?.kind === "robot") watched.value = picked.robot;
     if (!picked || picked.kind === "robot") return;
     if (placing.peek()) {
       ghost.place(source, picked.at);
