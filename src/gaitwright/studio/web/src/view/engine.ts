@@ -7,7 +7,7 @@ import type { Theme } from "../shell/theme";
 import { Pose } from "./kinematics";
 import { Overlays } from "./overlays";
 import { PALETTES } from "./palette";
-import type { Rig } from "./rig";
+import { type Rig, spread } from "./rig";
 import { paint, Robots } from "./robots";
 import { Lights, Scenery } from "./scenery";
 import { sameGround } from "./same";
@@ -112,7 +112,7 @@ export class Engine {
     this.before = now;
     this.take(now);
     const pose = this.rows.length ? this.poses[Math.min(this.watched, this.poses.length - 1)] : null;
-    if (pose) this.lights.follow(pose.base.position);
+    if (pose) this.lights.follow(pose.base.position, spread(pose.robot));
     this.overlays.update(now);
     this.fit();
     for (const view of this.views) this.drawView(view, pose ?? null, dt);

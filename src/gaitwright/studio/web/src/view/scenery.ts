@@ -2,7 +2,7 @@
 
 import {
   BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, Group, HemisphereLight, Mesh,
-  MeshStandardMaterial, SphereGeometry, type Vector3,
+  MeshStandardMaterial, SphereGeometry, Vector3,
 } from "three";
 import { floats, integers } from "../bytes";
 import type { Mesh as Triangles, World } from "../protocol";
@@ -13,6 +13,7 @@ import { Heights } from "./heights";
 import type { Palette } from "./palette";
 
 const SHADOW = 4;
+const SUN = new Vector3(5, -6.5, 12);
 
 export class Lights {
   readonly group = new Group();
@@ -24,7 +25,6 @@ export class Lights {
     const { sun } = this;
     sun.castShadow = true;
     sun.shadow.mapSize.set(2048, 2048);
-    Object.assign(sun.shadow.camera, { left: -SHADOW, right: SHADOW, top: SHADOW, bottom: -SHADOW, near: 1, far: 40 });
     sun.shadow.bias = -0.0004;
     sun.shadow.normalBias = 0.012;
     sun.shadow.radius = 3;
@@ -33,11 +33,17 @@ export class Lights {
   }
 
   /** Shadows are where the robot is. */
-  follow(place: Vector3): void {
+  follow(place: Vector3, size: number): void {
+    const reach = SHADOW * Math.max(1, size);
+    const { camera } = this.sun.shadow;
+    if (camera.right !== reach) {
+      Object.assign(camera, { left: -reach, right: reach, top: reach, bottom: -reach, far: 10 * reach });
+      camera.updateProjectionMatrix();
+    }
     // in steps, so that edges of shadows do not crawl
     const step = (value: number) => Math.round(value * 4) / 4;
     this.sun.target.position.set(step(place.x), step(place.y), step(place.z));
-    this.sun.position.copy(this.sun.target.position).add({ x: 5, y: -6.5, z: 12 } as Vector3);
+    this.sun.position.copy(this.sun.target.position).addScaledVector(SUN, Math.max(1, size));
   }
 
   dye(palette: Palette): void {

@@ -28,10 +28,12 @@ export class RouteLine implements Overlay {
     this.drawn = null;
   }
 
-  update({ source, pose, height }: Moment): void {
+  update({ source, pose, size, height }: Moment): void {
     const status = source.status.peek();
     if (status === this.drawn) return;
     this.drawn = status;
+    this.line.scale = size;
+    this.goal.scale.setScalar(size);
     const { x, y } = pose.base.position;
     const corners = status?.route.length ? [[x, y], ...status.route] : [];
     this.line.set(laid(corners, height));
