@@ -11,6 +11,7 @@ import { Smooth } from "./smooth";
 import type { Link, Source } from "./source";
 import { sameGround } from "./view/same";
 
+const VERSION = 1;
 const ANSWER_WITHIN = 15_000;
 const RETRY = [500, 1000, 2000, 4000];
 
@@ -154,6 +155,7 @@ export class Live implements Source {
       case "hello":
         this.arrange(new Layout(message.columns));
         this.hello.value = message;
+        if (message.version !== VERSION) this.closed.value = "the studio is newer than this page: load it again";
         break;
       case "world":
         this.settle(message);

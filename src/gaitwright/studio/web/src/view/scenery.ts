@@ -11,6 +11,7 @@ import { creased } from "./creased";
 import { groundMaterial } from "./ground-material";
 import { Heights } from "./heights";
 import type { Palette } from "./palette";
+import { welded } from "./weld";
 
 const SHADOW = 4;
 const SUN = new Vector3(5, -6.5, 12);
@@ -109,5 +110,6 @@ function surface(points: Float32Array, indices: Uint32Array): BufferGeometry {
 }
 
 function solid(mesh: Triangles): BufferGeometry {
-  return surface(floats(mesh.points), integers(mesh.indices));
+  const { points, indices } = welded(floats(mesh.points), integers(mesh.indices));
+  return surface(points, indices);
 }
