@@ -8,6 +8,7 @@ import { Pose } from "./kinematics";
 import { Overlays } from "./overlays";
 import { PALETTES } from "./palette";
 import { type Rig, spread } from "./rig";
+import { Quality } from "./quality";
 import { paint, Robots } from "./robots";
 import { Lights, Scenery } from "./scenery";
 import { sameGround } from "./same";
@@ -28,6 +29,7 @@ export class Engine {
   readonly overlays: Overlays;
   /** What tools draw. */
   readonly hands = new Group();
+  private readonly quality: Quality;
   private world: World | null = null;
   private robots: Robots | null = null;
   private readonly lights = new Lights();
@@ -41,7 +43,7 @@ export class Engine {
 
   constructor(readonly canvas: HTMLCanvasElement, readonly source: Source) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: false });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.quality = new Quality(this.renderer);
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.toneMapping = NeutralToneMapping;
@@ -117,6 +119,7 @@ export class Engine {
     this.fit();
     for (const view of this.views) this.drawView(view, pose ?? null, dt);
     for (const then of this.onDrawn) then();
+    this.quality.drawn(now);
   }
 
   private take(now: number): void {

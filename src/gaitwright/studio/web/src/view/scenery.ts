@@ -13,6 +13,8 @@ import { Heights } from "./heights";
 import type { Palette } from "./palette";
 import { welded } from "./weld";
 
+/** Lower ground casts no shadows [m]. */
+const CASTS = 0.12;
 const SHADOW = 4;
 const SUN = new Vector3(5, -6.5, 12);
 
@@ -66,7 +68,7 @@ export class Scenery {
     this.heights = new Heights(points, indices);
     const ground = new Mesh(surface(points, indices), this.ground.material);
     ground.receiveShadow = true;
-    ground.castShadow = this.heights.high - this.heights.low > 0.02;
+    ground.castShadow = this.heights.high - this.heights.low > CASTS;
     this.group.add(ground);
     for (const mesh of world.meshes) this.add(solid(mesh));
     for (const ball of world.spheres) {
@@ -102,10 +104,11 @@ export class Scenery {
 }
 
 function surface(points: Float32Array, indices: Uint32Array): BufferGeometry {
-  const { position, normal } = creased(points, indices);
+  const { position, normal, index } = creased(points, indices);
   const shape = new BufferGeometry();
   shape.setAttribute("position", new BufferAttribute(position, 3));
   shape.setAttribute("normal", new BufferAttribute(normal, 3));
+  shape.setIndex(new BufferAttribute(index, 1));
   return shape;
 }
 
