@@ -32,7 +32,15 @@ CHECKS = {
     "types": ["pyright"],
     "law": ["lint-imports"],
 }
-TESTS = ["pytest", "-n", "auto", "--maxprocesses", "4", "--dist", "loadgroup"]  # one process for each core; `-n 0` for one in all
+TESTS = [
+    "pytest",
+    "-n",
+    "auto",
+    "--maxprocesses",
+    "4",
+    "--dist",
+    "loadgroup",
+]  # one process for each core; `-n 0` for one in all
 PINNED = ["-c", "constraints.txt", "-b", "constraints.txt", "-e", ".[plot,record,studio]"]
 
 
