@@ -5,10 +5,11 @@ import { parseFrame } from "./frame";
 import { History } from "./history";
 import { Layout } from "./layout";
 import type {
-  Answer, Command, Curve, FromServer, Hello, Moved, Recordings, Rules, Scan, Seen, Status, Tried, Why, World,
+  Answer, Command, Curve, FromServer, Hello, Moved, Recordings, Role, Rules, Scan, Seen, Status, Tried, Why, World,
 } from "./protocol";
 import { Smooth } from "./smooth";
 import type { Link, Source } from "./source";
+import { sameGround } from "./view/same";
 
 const ANSWER_WITHIN = 15_000;
 const RETRY = [500, 1000, 2000, 4000];
@@ -27,6 +28,8 @@ export class Live implements Source {
   readonly kind = "live";
   readonly link = signal<Link>("connecting");
   readonly hello = signal<Hello | null>(null);
+  readonly role = signal<Role>({ say: "role", role: "watcher", watchers: 0, has_driver: false });
+  readonly closed = signal("");
   readonly world = signal<World | null>(null);
   readonly status = signal<Status | null>(null);
   readonly moved = signal<Moved | null>(null);
@@ -43,6 +46,7 @@ export class Live implements Source {
 
   /** What replaces what was known by that name. */
   private readonly told = {
+    role: this.role,
     status: this.status,
     moved: this.moved,
     scan: this.scan,
@@ -121,6 +125,7 @@ export class Live implements Source {
     };
     socket.onopen = () => {
       this.failures = 0;
+      this.closed.value = "";
       this.link.value = "open";
     };
     socket.onclose = () => {
@@ -151,20 +156,36 @@ export class Live implements Source {
         this.hello.value = message;
         break;
       case "world":
-        this.smooth?.clear();
-        this.histories = [];
-        this.moved.value = this.seen.value = this.scan.value = null;
-        this.world.value = message;
+        this.settle(message);
+        break;
+      case "closed":
+        this.closed.value = message.because;
         break;
       case "done":
       case "refused":
         this.answered(message);
         break;
-      default: {
-        const known = this.told[message.say] as Signal<unknown> | undefined;
-        if (known) known.value = message;
-      }
+      default:
+        this.know(message.say, message);
+        // an answer that is more than `done` is told as what it is
+        if ("id" in message) this.resolve(message.id as number, { done: true, more: { ...message } });
     }
+  }
+
+  private know(name: string, what: unknown): void {
+    const known = (this.told as Record<string, unknown>)[name] as Signal<unknown> | undefined;
+    if (known) known.value = what;
+  }
+
+  /** Another world; where only its boxes were moved, all else is kept. */
+  private settle(world: World): void {
+    if (!sameGround(world, this.world.peek())) {
+      this.smooth?.clear();
+      this.histories = [];
+      this.seen.value = this.scan.value = null;
+    }
+    this.moved.value = null;
+    this.world.value = world;
   }
 
   /** Columns as told in `hello`, which comes again after a reconnection or another role. */
@@ -176,11 +197,19 @@ export class Live implements Source {
   }
 
   private answered(message: Extract<FromServer, { say: "done" | "refused" }>): void {
-    const answer: Answer =
-      message.say === "done" ? { done: true } : { done: false, because: message.because };
-    this.refusal.value = answer.done ? "" : answer.because;
-    const waits = message.id === undefined ? undefined : this.waiting.get(message.id);
-    if (message.id !== undefined) this.waiting.delete(message.id);
-    waits?.(answer);
+    if (message.say === "refused") {
+      this.resolve(message.id, this.refuse(message.because));
+      return;
+    }
+    this.refusal.value = "";
+    if (Array.isArray(message.sentences)) this.know("why", message);
+    if (Array.isArray(message.recordings)) this.know("recordings", { names: message.recordings });
+    this.resolve(message.id, { done: true, more: message });
+  }
+
+  private resolve(id: number | undefined, answer: Answer): void {
+    if (id === undefined) return;
+    this.waiting.get(id)?.(answer);
+    this.waiting.delete(id);
   }
 }

@@ -1,89 +1,40 @@
 // The studio's protocol, version 1: what server and page say to each other.
 // Lengths m, angles rad, world axes x forward, y left, z up; quaternions (w, x, y, z).
 
-export type Vec2 = [number, number];
-export type Vec3 = [number, number, number];
-export type Quat = [number, number, number, number];
+import type { Column, Thing, Vec2, Vec3, World } from "./protocol-scene";
 
-export interface Column {
-  name: string;
-  size: number;
-}
-
-export interface Mesh {
-  /** base64 of little-endian float32 x, y, z … */
-  points: string;
-  /** base64 of uint32, three per triangle */
-  indices: string;
-}
-
-export interface Robot {
-  name: string;
-  legs: string[];
-  hip: Vec3[];
-  frame: Quat[];
-  offset: [Vec3, Vec3, Vec3][];
-  sign: number[];
-  foot_radius: number[];
-  trunk: [Vec3, Vec3];
-  tau_max: Vec3[];
-  q_min: Vec3[];
-  q_max: Vec3[];
-  height: number;
-  mass: number;
-}
-
-export interface Box {
-  id: string | number;
-  x: number;
-  y: number;
-  /** of the centre */
-  z: number;
-  lx: number;
-  ly: number;
-  lz: number;
-  yaw: number;
-  fixed: boolean;
-}
-
-export interface Sphere {
-  x: number;
-  y: number;
-  z: number;
-  radius: number;
-}
+export * from "./protocol-scene";
 
 export type Mode = "guide" | "apprentice" | "plan";
 
 export interface Choices {
-  robots: string[];
-  scenes: { name: string; about: string }[];
+  robots?: string[];
+  scenes?: { name: string; about: string }[];
   skills: string[];
   drivers: string[];
   modes: Mode[];
-  cycles: string[];
+  cycles?: string[];
 }
 
 export interface Hello {
   say: "hello";
   version: number;
-  role: "driver" | "watcher";
   columns: Column[];
   choices: Choices;
 }
 
-export interface World {
-  say: "world";
-  scene: string;
-  seed: number;
-  robots: Robot[];
-  ground: Mesh;
-  boxes: Box[];
-  spheres: Sphere[];
-  meshes: Mesh[];
-  bounds: [number, number, number, number];
-  start: Vec3;
-  goal: Vec2 | null;
+/** Who this page is: told when it comes in, and whenever that changes. */
+export interface Role {
+  say: "role";
+  role: "driver" | "watcher";
+  watchers: number;
+  has_driver: boolean;
+}
+
+/** The studio has ended. */
+export interface Closed {
+  say: "closed";
+  because: string;
 }
 
 export interface Status {
@@ -108,29 +59,17 @@ export interface Status {
   pause: string | null;
   halt: string | null;
   over: string | null;
+  /** how the last mission ended */
+  outcome?: string | null;
   arrived: boolean;
   fell: boolean;
   faults: string[];
-  has_driver: boolean;
-  watchers: number;
   recording: boolean;
   obstacle: string;
   /** the skill that a person holds; "": rules choose */
   held?: string;
   setup?: { robot: string; scene: string; seed: number; sight: "known" | "camera" };
   share: Record<string, number>;
-}
-
-export interface Thing {
-  id: string | number;
-  x: number;
-  y: number;
-  z: number;
-  yaw: number;
-  /** Sizes, where it is something that moves by itself. */
-  lx?: number;
-  ly?: number;
-  lz?: number;
 }
 
 export interface Moved {
@@ -171,9 +110,12 @@ export interface Seen {
 
 export interface Tree {
   name: string;
-  kind: string;
-  values: string[] | null;
   unit: string;
+  values: string[] | null;
+  kind?: string;
+  about?: string;
+  /** of each value the place of the one that it hangs below; −1: the root */
+  parents?: number[];
 }
 
 export interface Condition {
@@ -191,13 +133,19 @@ export interface Rule {
   skill: string;
   status: string;
   sentence: string;
-  firmness: number;
-  conditions: Condition[];
-  history: { sentence: string }[];
+  firmness?: number;
+  conditions?: Condition[];
+  history?: (string | { sentence: string })[];
+  /** how many lessons it was right and wrong in, and since how many no mark moved */
+  right?: number;
+  wrong?: number;
+  quiet?: number;
+  /** by trees: how far it is known to hold, and not to */
+  marks?: Record<string, { upper: unknown; lower: unknown }>;
 }
 
 export interface Lesson {
-  id: number;
+  id: string | number;
   rule: string;
   given: string;
   about: string;
@@ -208,6 +156,8 @@ export interface Rules {
   trees: Tree[];
   rules: Rule[];
   lessons: Lesson[];
+  /** names of what can be said of a situation in numbers */
+  numbers?: string[];
 }
 
 export interface Why {
@@ -219,8 +169,9 @@ export interface Why {
 export interface Tried {
   say: "tried";
   id: number;
-  lesson: number;
+  lesson: string | number;
   sentence: string;
+  moves?: string[];
   followed: boolean;
   stretches: string[];
   broken: string[];
@@ -245,12 +196,14 @@ export interface Curve {
 
 export interface Recordings {
   say: "recordings";
-  names: { name: string; seconds: number; bytes: number }[];
+  names: { name: string; bytes: number; seconds?: number }[];
 }
 
 export interface Done {
   say: "done";
   id: number;
+  /** what else is answered */
+  [more: string]: unknown;
 }
 
 export interface Refused {
@@ -260,7 +213,7 @@ export interface Refused {
 }
 
 export type FromServer =
-  | Hello | World | Status | Moved | Scan | Seen | Rules | Why | Tried | Curve | Recordings | Done | Refused;
+  | Hello | Role | Closed | World | Status | Moved | Scan | Seen | Rules | Why | Tried | Curve | Recordings | Done | Refused;
 
 export type Command =
   | { do: "go"; x: number; y: number; then?: boolean }
@@ -277,17 +230,21 @@ export type Command =
   | { do: "remove"; thing: string | number }
   | { do: "record"; on: boolean }
   | { do: "right"; skill: string; speed?: number; turn?: number; about?: string; name?: string }
-  | { do: "forget"; lesson: number }
+  | { do: "forget"; lesson?: string | number }
   | { do: "why"; rule?: string }
-  | { do: "order"; rules: string[] }
-  | { do: "curve"; kind: CurveKind; skill: string; leg: string | number }
-  | { do: "edit"; kind: CurveKind; skill: string; leg: string | number; points: number[][]; mirror: boolean }
+  | { do: "order"; rule: string; before: string }
+  | { do: "curve"; kind: CurveKind; skill: string; leg: number; joint?: number }
+  | {
+      do: "edit"; kind: CurveKind; skill: string; leg: number; joint?: number; points: number[][];
+      mirror: boolean;
+    }
   | {
       do: "stand" | "pause" | "resume" | "abort" | "take" | "release" | "keep" | "back" | "ok" | "undo" | "redo"
-        | "recordings";
+        | "save" | "recordings";
     };
 
-export type Answer = { done: true } | { done: false; because: string };
+/** `more`: what came with it. */
+export type Answer = { done: true; more: Record<string, unknown> } | { done: false; because: string };
 
 /** What a replay page carries in `<script type="application/json" id="recording">`. */
 export interface Embedded {

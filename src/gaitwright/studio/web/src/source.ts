@@ -4,7 +4,7 @@ import type { ReadonlySignal } from "@preact/signals";
 import type { History } from "./history";
 import type { Layout } from "./layout";
 import type {
-  Answer, Command, Curve, Hello, Moved, Recordings, Rules, Scan, Seen, Status, Tried, Why, World,
+  Answer, Command, Curve, Hello, Moved, Recordings, Role, Rules, Scan, Seen, Status, Tried, Why, World,
 } from "./protocol";
 
 export type Link = "connecting" | "open" | "lost";
@@ -13,6 +13,9 @@ export interface Source {
   readonly kind: "live" | "replay";
   readonly link: ReadonlySignal<Link>;
   readonly hello: ReadonlySignal<Hello | null>;
+  readonly role: ReadonlySignal<Role>;
+  /** Why the studio has ended; "" while it has not. */
+  readonly closed: ReadonlySignal<string>;
   readonly world: ReadonlySignal<World | null>;
   readonly status: ReadonlySignal<Status | null>;
   readonly moved: ReadonlySignal<Moved | null>;
@@ -46,4 +49,9 @@ export interface Source {
   send(command: Command): Promise<Answer>;
   /** Sends without asking for an answer: for what comes many times a second. */
   tell(command: Command): void;
+}
+
+/** Whether this page drives, and does not only watch. */
+export function drives(source: Source): boolean {
+  return source.role.value.role === "driver";
 }

@@ -55,11 +55,11 @@ export class BoxDrag implements Drag {
     const { x, y, yaw } = this.now;
     if (x !== this.start.x || y !== this.start.y || yaw !== this.start.yaw) {
       void this.source.send({ do: "move", thing: this.start.id, x, y, yaw }).then((answer) => {
-        // the last place that was allowed comes as `moved`; without any it stands where it stood
-        if (!answer.done) this.draw(this.allowed() ?? this.start);
+        if (!answer.done) this.draw(this.allowed());
+        this.away();
       });
-    }
-    this.away();
+    } else this.away();
+    this.label.remove();
   }
 
   cancel(): void {
@@ -70,8 +70,11 @@ export class BoxDrag implements Drag {
     this.away();
   }
 
+  /** The last place that the server had it at. */
   private allowed() {
-    return this.source.moved.peek()?.things.find(({ id, lx }) => id === this.start.id && lx === undefined);
+    const same = ({ id, lx }: { id: Box["id"]; lx?: number }) => id === this.start.id && lx === undefined;
+    const moved = this.source.moved.peek()?.things.find(same);
+    return moved ?? this.source.world.peek()?.boxes.find(({ id }) => id === this.start.id) ?? this.start;
   }
 
   private away(): void {

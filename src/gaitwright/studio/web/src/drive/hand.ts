@@ -31,7 +31,7 @@ function hold(source: Source, engine: Engine, place: HTMLElement, rig: Rig): () 
   let drag: Drag | null = null;
   let from: { x: number; y: number; picked: Picked | null } | null = null;
   const ghost = new PlacingGhost(engine);
-  const drives = () => source.hello.peek()?.role === "driver";
+  const drives = () => source.role.peek().role === "driver";
   const far = (event: PointerEvent) => !from || Math.hypot(event.clientX - from.x, event.clientY - from.y) > CLICK;
 
   const down = (event: PointerEvent) => {

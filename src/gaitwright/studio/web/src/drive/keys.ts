@@ -21,7 +21,7 @@ export function listenToKeys(steering: Steering, source: Source): () => void {
   };
   const press = (event: KeyboardEvent) => {
     if (event.ctrlKey || event.metaKey || event.altKey || writes(event.target)) return;
-    if (source.hello.peek()?.role !== "driver") return;
+    if (source.role.peek().role !== "driver") return;
     if (event.code === "Space" && !event.repeat) {
       event.preventDefault();
       down.clear();

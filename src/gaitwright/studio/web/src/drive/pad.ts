@@ -17,7 +17,7 @@ export function listenToPad(steering: Steering, source: Source): () => void {
   const read = () => {
     const pad = navigator.getGamepads().find((one) => one?.connected);
     padName.value = pad?.id ?? "";
-    const away = !pad || !document.hasFocus() || source.hello.peek()?.role !== "driver";
+    const away = !pad || !document.hasFocus() || source.role.peek().role !== "driver";
     const [x, y, turn] = away ? [0, 0, 0] : [0, 1, 2].map((axis) => dead(pad.axes[axis] ?? 0));
     const held = x !== 0 || y !== 0 || turn !== 0;
     if (held) steering.hold("pad", { forward: -y, left: -x, turn: -turn });

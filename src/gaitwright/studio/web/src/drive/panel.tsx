@@ -1,7 +1,7 @@
 // Driving: stick and keys, velocities, skills.
 
 import { useEffect, useMemo } from "preact/hooks";
-import type { Source } from "../source";
+import { drives, type Source } from "../source";
 import { skillColour } from "../ui/colours";
 import { number, Section, Slider, Switch } from "../ui/controls";
 import { remembered } from "../ui/remembered";
@@ -34,7 +34,7 @@ export function useHands(source: Source): void {
 
 export function DrivePanel({ source }: { source: Source }) {
   const steering = useMemo(() => steeringOf(source), [source]);
-  const watching = source.hello.value?.role !== "driver";
+  const watching = !drives(source);
   return (
     <>
       <Section title="Steer" aside={<Asked source={source} />}>

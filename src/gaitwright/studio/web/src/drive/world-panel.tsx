@@ -1,17 +1,19 @@
 // The world: which robot where, boxes, and starting over.
 
 import { useState } from "preact/hooks";
-import type { Source } from "../source";
+import { drives, type Source } from "../source";
 import { number, Section, Select, Field, Segmented, Slider } from "../ui/controls";
 import { chosen, placing, size } from "./placing";
+import { Recordings } from "./recordings";
 
 export function WorldPanel({ source }: { source: Source }) {
-  const watching = source.hello.value?.role !== "driver";
+  const watching = !drives(source);
   return (
     <>
       <Setup source={source} watching={watching} />
       <NewBox watching={watching} />
       <ChosenBox source={source} watching={watching} />
+      <Recordings source={source} />
     </>
   );
 }
@@ -31,16 +33,16 @@ function Setup({ source, watching }: { source: Source; watching: boolean }) {
     seed: seed ?? setup?.seed ?? world.seed,
     sight: sight || setup?.sight || "known",
   };
-  const about = choices.scenes.find(({ name }) => name === now.scene.split(":")[0])?.about;
+  const about = choices.scenes?.find(({ name }) => name === now.scene.split(":")[0])?.about;
   return (
     <Section title="Start over with">
       <Field label="Robot">
-        <Select id="reset-robot" choices={choices.robots} value={now.robot} choose={setRobot} disabled={watching} />
+        <Name id="reset-robot" choices={choices.robots} value={now.robot} choose={setRobot} disabled={watching} />
       </Field>
       <Field label="Scene">
-        <Select
+        <Name
           id="reset-scene"
-          choices={choices.scenes.map(({ name }) => name)}
+          choices={choices.scenes?.map(({ name }) => name)}
           value={now.scene}
           choose={setScene}
           disabled={watching}
@@ -82,6 +84,26 @@ function Setup({ source, watching }: { source: Source; watching: boolean }) {
         Start over
       </button>
     </Section>
+  );
+}
+
+/** A name to choose, or to write where nobody says what there is. */
+function Name(props: {
+  id: string;
+  choices?: string[];
+  value: string;
+  choose: (name: string) => void;
+  disabled: boolean;
+}) {
+  if (props.choices?.length) return <Select {...props} choices={props.choices} />;
+  return (
+    <input
+      type="text"
+      data-testid={props.id}
+      value={props.value}
+      disabled={props.disabled}
+      onChange={(event) => props.choose(event.currentTarget.value.trim())}
+    />
   );
 }
 

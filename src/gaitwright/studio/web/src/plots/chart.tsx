@@ -20,8 +20,7 @@ export function ChartView({ chart, feed }: { chart: Chart; feed: Feed }) {
     let plot: uPlot | null = null;
     const tellValues = () => {
       if (!plot) return;
-      const last = plot.data[0].length - 1;
-      const at = plot.cursor.idx ?? last;
+      const at = plot.cursor.idx ?? plot.valToIdx(feed.now());
       chart.lines.forEach((_, k) => {
         const place = values.current[k];
         const text = number(plot!.data[k + 1]?.[at] as number | undefined, chart.digits);
@@ -61,7 +60,7 @@ export function ChartView({ chart, feed }: { chart: Chart; feed: Feed }) {
         {chart.lines.map((line, k) => (
           <span key={k} class="chart-value" style={{ "--line-colour": line.colour }} title={line.label}>
             <i class={line.dash ? "dashed" : ""} />
-            <span class="chart-label">{line.label}</span>
+            {!chart.perLeg && <span class="chart-label">{line.label}</span>}
             <b ref={(element) => void (values.current[k] = element)}>–</b>
           </span>
         ))}
@@ -101,7 +100,7 @@ function options(chart: Chart, width: number, feed: Feed, tell: () => void): uPl
     },
     axes: [
       { ...axis, size: 18, gap: 2, space: 44, values: (_, splits) => splits.map((at) => number(at, splits[1] - splits[0] < 1 ? 1 : 0)) },
-      { ...axis, size: 38, gap: 4, space: 24 },
+      { ...axis, size: 38, gap: 4, space: 18 },
     ],
     series: [
       {},

@@ -17,6 +17,8 @@ export interface Chart {
   unit: string;
   digits: number;
   lines: Line[];
+  /** Lines are those of the legs, whose colours are known. */
+  perLeg?: boolean;
   /** Least range of the axis: it grows beyond where it must. */
   range?: [number, number];
 }
@@ -62,6 +64,7 @@ function perJoint(
     title: `${title}, ${joint}`,
     unit,
     digits,
+    perLeg: true,
     lines: robot.legs.map((leg, k) => ({
       label: leg,
       colour: LEGS[k % LEGS.length],
@@ -73,7 +76,7 @@ function perJoint(
 function forces(layout: Layout, robot: Robot): Chart {
   const at = layout.at("load");
   return {
-    id: "load", title: "Normal force", unit: "N", digits: 0, range: [0, (robot.mass * GRAVITY) / 2],
+    id: "load", title: "Normal force", unit: "N", digits: 0, perLeg: true, range: [0, (robot.mass * GRAVITY) / 2],
     lines: robot.legs.map((leg, k) => ({ label: leg, colour: LEGS[k % LEGS.length], value: (row) => row[at + k] })),
   };
 }

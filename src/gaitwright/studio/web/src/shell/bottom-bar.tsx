@@ -2,7 +2,7 @@
 
 import { effect, signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import type { Source } from "../source";
+import { drives, type Source } from "../source";
 import { number, Segmented } from "../ui/controls";
 import { Icon } from "../ui/icons";
 
@@ -11,7 +11,7 @@ const TICKS = [1, 25];
 
 export function BottomBar({ source }: { source: Source }) {
   const status = source.status.value;
-  const watching = source.hello.value?.role !== "driver";
+  const watching = !drives(source);
   const send = source.send.bind(source);
   const paused = status?.paused ?? true;
   return (
@@ -88,8 +88,8 @@ function Message({ source }: { source: Source }) {
     });
   }, [source]);
   const status = source.status.value;
-  const bad = refusal.value || (status?.fell ? status.over : "") || status?.halt || status?.no_way || "";
-  const text = bad || status?.over || status?.pause || status?.because || "";
+  const bad = source.closed.value || refusal.value || (status?.fell ? status.over : "") || status?.halt || status?.no_way || "";
+  const text = bad || status?.over || status?.pause || status?.outcome || status?.because || "";
   return (
     <span class={`message ${bad ? "bad" : ""}`} title={text} data-testid="message">
       {text}

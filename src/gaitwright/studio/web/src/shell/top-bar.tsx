@@ -1,7 +1,7 @@
 // The bar above: who has authority over the joints, always; mode and driver; the link; the theme.
 
 import type { Mode } from "../protocol";
-import type { Source } from "../source";
+import { drives, type Source } from "../source";
 import { driverColour, skillColour } from "../ui/colours";
 import { Segmented, Select } from "../ui/controls";
 import { Icon } from "../ui/icons";
@@ -60,7 +60,7 @@ function Choices({ source }: { source: Source }) {
   const hello = source.hello.value;
   const status = source.status.value;
   if (!hello || !status) return null;
-  const watching = hello.role === "watcher";
+  const watching = !drives(source);
   return (
     <>
       <Segmented<Mode>
@@ -90,10 +90,10 @@ const MODES: Record<Mode, string> = {
 
 function LinkState({ source }: { source: Source }) {
   const link = source.link.value;
-  const role = source.hello.value?.role;
-  const free = source.status.value?.has_driver === false;
+  const { role, has_driver, watchers } = source.role.value;
+  const others = watchers === 1 ? "one more page is open" : `${watchers} more pages are open`;
   return (
-    <span class="link" data-testid="link" data-link={link}>
+    <span class="link" data-testid="link" data-link={link} title={watchers ? others : ""}>
       <span class={`dot ${link}`} />
       {link !== "open" ? (
         link === "lost" ? "no connection" : "connecting"
@@ -103,7 +103,7 @@ function LinkState({ source }: { source: Source }) {
         </button>
       ) : (
         <button title="Become the driver" data-testid="take" onClick={() => void source.send({ do: "take" })}>
-          {free ? "take over" : "watching · take over"}
+          {has_driver ? "watching · take over" : "take over"}
         </button>
       )}
     </span>

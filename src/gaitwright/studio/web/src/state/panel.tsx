@@ -11,7 +11,7 @@ export function StatusPanel({ source }: { source: Source }) {
   if (!status) return <p class="faint nothing">nothing is known yet</p>;
   return (
     <>
-      {status.over && <Over status={status} />}
+      {(status.over || status.outcome) && <Over status={status} />}
       <InControl status={status} />
       <Reason source={source} status={status} />
       <Ahead status={status} />
@@ -25,7 +25,7 @@ function Over({ status }: { status: Status }) {
   const how = status.fell ? "bad" : status.arrived ? "good" : "";
   return (
     <p class={`banner ${how}`} data-testid="over">
-      {status.over}
+      {status.over ?? status.outcome}
     </p>
   );
 }
@@ -96,16 +96,23 @@ function RuleBody({ rule }: { rule: Rule }) {
   return (
     <>
       <p>{rule.sentence || rule.action}</p>
-      {rule.conditions.length > 0 && (
+      {rule.conditions && rule.conditions.length > 0 && (
         <ul class="conditions">
           {rule.conditions.map((one, k) => (
             <li key={k}>{inWords(one)}</li>
           ))}
         </ul>
       )}
-      <div class="firmness" title={`firmness ${number(rule.firmness)}`}>
-        <span style={{ width: `${100 * Math.max(0, Math.min(1, rule.firmness))}%` }} />
-      </div>
+      {rule.right !== undefined && (
+        <p class="faint">
+          right in {rule.right}, wrong in {rule.wrong}; since {rule.quiet} no mark moved
+        </p>
+      )}
+      {rule.firmness !== undefined && (
+        <div class="firmness" title={`firmness ${number(rule.firmness)}`}>
+          <span style={{ width: `${100 * Math.max(0, Math.min(1, rule.firmness))}%` }} />
+        </div>
+      )}
     </>
   );
 }

@@ -18,8 +18,8 @@ export type Id = Box["id"];
 
 export class Boxes {
   readonly group = new Group();
-  private readonly mesh: InstancedMesh;
-  private readonly boxes: Box[];
+  private mesh: InstancedMesh;
+  private boxes: Box[];
   private readonly material = edged();
   private colour = new Color();
   private held = new Color();
@@ -27,11 +27,29 @@ export class Boxes {
 
   constructor(boxes: Box[]) {
     this.boxes = boxes.map((box) => ({ ...box }));
-    this.mesh = new InstancedMesh(new BoxGeometry(1, 1, 1), this.material, this.boxes.length + SPARE);
-    this.mesh.instanceMatrix.setUsage(DynamicDrawUsage);
-    this.mesh.castShadow = this.mesh.receiveShadow = true;
-    this.mesh.frustumCulled = false;
-    this.group.add(this.mesh);
+    this.mesh = this.made(this.boxes.length + SPARE);
+    this.draw();
+  }
+
+  private made(most: number): InstancedMesh {
+    const mesh = new InstancedMesh(new BoxGeometry(1, 1, 1), this.material, most);
+    mesh.instanceMatrix.setUsage(DynamicDrawUsage);
+    mesh.castShadow = mesh.receiveShadow = true;
+    mesh.frustumCulled = false;
+    this.group.add(mesh);
+    return mesh;
+  }
+
+  /** Other boxes; one that is held stays in the hand. */
+  replace(boxes: Box[]): void {
+    const held = this.lit === null ? undefined : this.find(this.lit);
+    const moving = this.boxes.filter(({ id }) => isMoving(id));
+    this.boxes = [...boxes.map((box) => (held && box.id === held.id ? held : { ...box })), ...moving];
+    if (this.boxes.length > this.mesh.instanceMatrix.count) {
+      this.group.remove(this.mesh);
+      this.mesh.dispose();
+      this.mesh = this.made(this.boxes.length + SPARE);
+    }
     this.draw();
   }
 
@@ -53,7 +71,7 @@ export class Boxes {
     }
     const moving = new Set(things.filter((thing) => thing.lx !== undefined).map((thing) => `moving ${thing.id}`));
     if (moving.size) {
-      const gone = (box: Box) => typeof box.id === "string" && box.id.startsWith("moving ") && !moving.has(box.id);
+      const gone = (box: Box) => isMoving(box.id) && !moving.has(String(box.id));
       for (let k = this.boxes.length - 1; k >= 0; k--) if (gone(this.boxes[k])) this.boxes.splice(k, 1);
     }
     this.draw();
@@ -101,6 +119,10 @@ export class Boxes {
     this.mesh.instanceMatrix.needsUpdate = true;
     if (this.mesh.instanceColor) this.mesh.instanceColor.needsUpdate = true;
   }
+}
+
+function isMoving(id: Id): boolean {
+  return typeof id === "string" && id.startsWith("moving ");
 }
 
 /** Faces with edges a little lighter, 8 mm wide whatever the size. */

@@ -10,6 +10,7 @@ import { PALETTES } from "./palette";
 import type { Rig } from "./rig";
 import { paint, Robots } from "./robots";
 import { Lights, Scenery } from "./scenery";
+import { sameGround } from "./same";
 import { skyTexture } from "./sky";
 
 export interface View {
@@ -27,6 +28,7 @@ export class Engine {
   readonly overlays: Overlays;
   /** What tools draw. */
   readonly hands = new Group();
+  private world: World | null = null;
   private robots: Robots | null = null;
   private readonly lights = new Lights();
   private theme: Theme = "light";
@@ -63,6 +65,12 @@ export class Engine {
 
   /** Builds a world anew. */
   arrange(world: World | null): void {
+    const before = this.world;
+    this.world = world;
+    if (world && this.scenery && sameGround(world, before)) {
+      this.scenery.boxes.replace(world.boxes);
+      return;
+    }
     this.scenery?.dispose();
     this.robots?.dispose();
     if (this.scenery) this.scene.remove(this.scenery.group);

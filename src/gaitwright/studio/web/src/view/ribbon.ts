@@ -1,19 +1,28 @@
 // A line on the ground with a width in metres: a strip of triangles.
 
 import {
-  BufferAttribute, BufferGeometry, type ColorRepresentation, DoubleSide, Mesh, MeshBasicMaterial,
+  BufferAttribute, BufferGeometry, type ColorRepresentation, DoubleSide, GreaterDepth, Mesh, MeshBasicMaterial,
 } from "three";
 
 export class Ribbon {
   readonly mesh: Mesh<BufferGeometry, MeshBasicMaterial>;
+  /** What of it is behind something, faint. */
+  private readonly behind: Mesh<BufferGeometry, MeshBasicMaterial> | null = null;
 
-  constructor(colour: ColorRepresentation, private readonly wide: number, opacity = 1) {
+  /** `through`: whether it is seen through what is before it. */
+  constructor(colour: ColorRepresentation, private readonly wide: number, opacity = 1, through = false) {
     const material = new MeshBasicMaterial({
       color: colour, side: DoubleSide, transparent: opacity < 1, opacity, depthWrite: opacity === 1,
       polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2, toneMapped: false,
     });
     this.mesh = new Mesh(new BufferGeometry(), material);
     this.mesh.frustumCulled = false;
+    if (!through) return;
+    const faint = material.clone();
+    Object.assign(faint, { transparent: true, opacity: 0.3 * opacity, depthWrite: false, depthFunc: GreaterDepth });
+    this.behind = new Mesh(this.mesh.geometry, faint);
+    this.behind.frustumCulled = false;
+    this.mesh.add(this.behind);
   }
 
   set(points: readonly (readonly number[])[], closed = false): void {
@@ -35,6 +44,7 @@ export class Ribbon {
     this.mesh.geometry.dispose();
     this.mesh.geometry = new BufferGeometry();
     this.mesh.geometry.setAttribute("position", new BufferAttribute(new Float32Array(at), 3));
+    if (this.behind) this.behind.geometry = this.mesh.geometry;
     this.mesh.visible = at.length > 0;
   }
 }

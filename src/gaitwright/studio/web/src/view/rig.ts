@@ -1,6 +1,7 @@
 // A camera and how it moves: around a target, with the robot, from above, from the side, at a foot.
 
 import { MathUtils, PerspectiveCamera, Vector3 } from "three";
+import type { Robot } from "../protocol";
 import type { Pose } from "./kinematics";
 
 export const KINDS = ["follow", "free", "top", "side", "foot"] as const;
@@ -27,7 +28,7 @@ export class Rig {
   private polar = 1;
   private far = 3;
   private heading = 0;
-  /** 1 for a robot 0.3 m tall: cameras stay farther away from a larger one. */
+  /** Cameras stay farther away from a larger robot. */
   private size = 1;
   private begun = false;
   /** How far a person moved the view off its target [m]. */
@@ -89,7 +90,7 @@ export class Rig {
   }
 
   private follow(pose: Pose, dt: number): void {
-    this.size = Math.max(0.4, pose.robot.height / 0.3);
+    this.size = spread(pose.robot);
     wished.copy(pose.base.position);
     if (this.kind === "foot") wished.copy(pose.feet[Math.min(this.leg, pose.feet.length - 1)]);
     else wished.z -= 0.35 * pose.robot.height;
@@ -106,4 +107,10 @@ export class Rig {
     this.target.lerp(wished, jumped ? 1 : soon);
     this.heading += turn * (1 - Math.exp(-dt / 0.4));
   }
+}
+
+/** How far a robot's feet reach from its middle, as a multiple of what Go2's do (0.63 m). */
+function spread({ hip, offset }: Robot): number {
+  const reach = hip.map((at, k) => Math.hypot(...at) + Math.hypot(...offset[k][1]) + Math.hypot(...offset[k][2]));
+  return Math.max(0.3, Math.max(...reach) / 0.63);
 }

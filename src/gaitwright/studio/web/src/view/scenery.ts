@@ -17,8 +17,8 @@ const SHADOW = 4;
 export class Lights {
   readonly group = new Group();
   private readonly sun = new DirectionalLight("#fff4e2", 2.5);
-  private readonly fill = new DirectionalLight("#cfe0ff", 0.35);
-  private readonly sky = new HemisphereLight("#eaf2ff", "#8a8377", 1.1);
+  private readonly fill = new DirectionalLight("#cfe0ff", 0.8);
+  private readonly sky = new HemisphereLight("#eaf2ff", "#b5afa4", 1.1);
 
   constructor() {
     const { sun } = this;

@@ -12,6 +12,7 @@ export const OVERLAYS = [
   { id: "support", label: "Support polygon, centre of gravity", first: true },
   { id: "footholds", label: "Foothold targets", first: true },
   { id: "route", label: "Route and goal", first: true },
+  { id: "trail", label: "Way that it came", first: false },
   { id: "velocity", label: "Velocity", first: false },
   { id: "ghost", label: "Wished pose", first: false },
   { id: "seen", label: "Ground as it is seen", first: false },

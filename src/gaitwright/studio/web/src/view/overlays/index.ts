@@ -12,6 +12,7 @@ import { Reach } from "./reach";
 import { RouteLine } from "./route";
 import { SeenGround } from "./seen";
 import { Support } from "./support";
+import { Trail } from "./trail";
 import { VelocityArrow } from "./velocity";
 
 export class Overlays {
@@ -25,6 +26,7 @@ export class Overlays {
     ghost: new Ghost(),
     seen: new SeenGround(),
     reach: new Reach(),
+    trail: new Trail(),
   };
 
   constructor(private readonly engine: Engine) {

@@ -2,7 +2,6 @@
 
 import { Group } from "three";
 import type { Scan } from "../../protocol";
-import { LEGS } from "../../ui/colours";
 import { Ribbon } from "../ribbon";
 import type { Moment, Overlay } from "./overlay";
 
@@ -17,14 +16,14 @@ export class Reach implements Overlay {
     this.drawn = scan;
     const reach = scan?.reach ?? [];
     reach.forEach((outline, k) => {
-      this.lines[k] ??= this.line(k);
+      this.lines[k] ??= this.line();
       this.lines[k].set(outline.map(([x, y, z]) => [x, y, z + 0.005]), true);
     });
     for (let k = reach.length; k < this.lines.length; k++) this.lines[k].mesh.visible = false;
   }
 
-  private line(k: number): Ribbon {
-    const line = new Ribbon(LEGS[k % LEGS.length], 0.005, 0.7);
+  private line(): Ribbon {
+    const line = new Ribbon("#7048e8", 0.005, 0.7);
     this.object.add(line.mesh);
     return line;
   }

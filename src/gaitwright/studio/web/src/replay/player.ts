@@ -1,0 +1,124 @@
+// A recording as a source: what a live studio tells, from its rows and events.
+
+import { computed, type ReadonlySignal, signal } from "@preact/signals";
+import { Blend } from "../blend";
+import { fromBase64 } from "../bytes";
+import { History } from "../history";
+import { Layout } from "../layout";
+import type { Answer, Embedded, Hello, ReplayEvent, Role, Status, World } from "../protocol";
+import type { Link, Source } from "../source";
+import type { Clock } from "./clock";
+
+const nothing: ReadonlySignal<null> = signal(null);
+
+export class Player implements Source {
+  readonly kind = "replay";
+  readonly link = signal<Link>("open");
+  readonly hello: ReadonlySignal<Hello>;
+  readonly world: ReadonlySignal<World>;
+  readonly status: ReadonlySignal<Status>;
+  readonly layout: ReadonlySignal<Layout>;
+  readonly role = signal<Role>({ say: "role", role: "watcher", watchers: 0, has_driver: false });
+  readonly closed = signal("");
+  readonly moved = nothing;
+  readonly scan = nothing;
+  readonly seen = nothing;
+  readonly rules = nothing;
+  readonly why = nothing;
+  readonly tried = nothing;
+  readonly curve = nothing;
+  readonly recordings = nothing;
+  readonly refusal = signal("");
+  readonly beat: ReadonlySignal<number>;
+  readonly count = 1;
+  /** The event that holds now. */
+  readonly event: ReadonlySignal<ReplayEvent | null>;
+  readonly begins: number;
+  private readonly blend: Blend;
+  private readonly rows: History;
+
+  constructor(readonly recording: Embedded, data: Float32Array, private readonly clock: Clock) {
+    const layout = new Layout(recording.columns);
+    const drivers = recording.drivers;
+    this.layout = signal(layout);
+    this.world = signal(recording.world);
+    this.blend = new Blend(layout);
+    const count = Math.min(recording.count, Math.floor(data.length / layout.width));
+    this.rows = new History(layout.width, layout.at("time"), Infinity, Math.max(1, count));
+    for (let k = 0; k < count; k++) this.rows.add(data.subarray(k * layout.width, (k + 1) * layout.width));
+    this.begins = this.rows.count ? this.rows.time(0) : 0;
+    this.hello = signal(helloOf(recording));
+    this.beat = clock.time;
+    clock.duration.value = Math.max(clock.duration.peek(), this.rows.last());
+    const place = computed(() => lastBefore(recording.events, clock.time.value));
+    this.event = computed(() => recording.events[place.value] ?? null);
+    this.status = computed(() => statusOf(this.event.value, recording, drivers));
+  }
+
+  /** Unpacks a recording. */
+  static async of(recording: Embedded, clock: Clock): Promise<Player> {
+    const packed = new Blob([fromBase64(recording.rows)]).stream();
+    const whole = await new Response(packed.pipeThrough(new DecompressionStream("deflate-raw"))).arrayBuffer();
+    return new Player(recording, new Float32Array(whole, 0, whole.byteLength >> 2), clock);
+  }
+
+  get duration(): number {
+    return this.rows.last();
+  }
+
+  now(): number {
+    return this.clock.time.peek();
+  }
+
+  latest(): Float32Array | null {
+    if (!this.rows.count) return null;
+    return this.rows.row(Math.min(this.rows.count - 1, this.rows.from(this.now())));
+  }
+
+  sample(robot: number, now: number, out: Float32Array): boolean {
+    this.clock.advance(now);
+    if (robot !== 0 || !this.rows.count) return false;
+    const time = this.now();
+    const after = Math.min(this.rows.count - 1, this.rows.from(time));
+    const before = Math.max(0, after - 1);
+    const span = this.rows.time(after) - this.rows.time(before);
+    const share = span > 0 ? Math.max(0, Math.min(1, (time - this.rows.time(before)) / span)) : 1;
+    this.blend.into(out, this.rows.row(before), this.rows.row(after), share);
+    return true;
+  }
+
+  history(robot: number): History | null {
+    return robot === 0 ? this.rows : null;
+  }
+
+  send(): Promise<Answer> {
+    return Promise.resolve({ done: false, because: "a recording cannot be driven" });
+  }
+
+  tell(): void {
+    // a recording hears nothing
+  }
+}
+
+function lastBefore(events: ReplayEvent[], time: number): number {
+  let at = 0;
+  while (at + 1 < events.length && events[at + 1].time <= time + 1e-6) at++;
+  return at;
+}
+
+function helloOf(recording: Embedded): Hello {
+  const none = { skills: [], modes: [] };
+  const { columns, drivers } = recording;
+  return { say: "hello", version: 1, columns, choices: { ...none, drivers } };
+}
+
+function statusOf(event: ReplayEvent | null, recording: Embedded, drivers: string[]): Status {
+  const driver = event?.driver ?? drivers[0] ?? "";
+  return {
+    say: "status", time: event?.time ?? 0, paused: false, pace: 1, real_time: 1, mode: "plan", driver,
+    controller: driver, skill: event?.skill ?? "", velocity: [0, 0, 0], because: event?.because ?? "",
+    rule: event?.rule ?? "", route: [], goal: recording.world.goal, no_way: null, pause: null, halt: null,
+    over: null, arrived: false, fell: false, faults: [], recording: false,
+    obstacle: "", share: {},
+  };
+}
