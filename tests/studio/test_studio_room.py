@@ -42,7 +42,7 @@ def laps(room: Room, seconds: float) -> None:
 
 
 def place(room: Room) -> np.ndarray:
-    return room.run.session.measured.position_w.copy()
+    return room.run.sensed.position_w.copy()
 
 
 # --- where to go ------------------------------------------------------------------------------------
@@ -132,6 +132,7 @@ def test_what_cannot_be_done_changes_nothing(room: Room, message: m.Message, sen
 
 # --- time -------------------------------------------------------------------------------------------
 def test_time_goes_on_step_by_step_where_it_stands(room: Room):
+    laps(room, 0.1)
     room.hears(m.Pause())
     before = room.run.time
     room.hears(m.Step(ticks=5))
@@ -183,7 +184,7 @@ def test_a_push_is_felt(room: Room):
     laps(room, 0.2)
     room.hears(m.Push(impulse=0.4, direction=math.pi / 2))
     laps(room, 0.1)
-    assert room.run.session.measured.velocity_w[1] > 0.1
+    assert room.run.sensed.velocity_w[1] > 0.1
 
 
 # --- what is kept -----------------------------------------------------------------------------------
@@ -196,6 +197,7 @@ def test_a_recording_holds_what_happened_between_on_and_off(room: Room):
 
 
 def test_a_lesson_is_tried_first_and_in_the_book_once_it_is_kept(room: Room, said: list[dict]):
+    room.hears(m.Reset(scene="flat"))
     room.hears(m.Go(x=3.0, y=0.0))
     laps(room, 0.6)
     tried = room.hears(m.Right(skill="pace"))

@@ -90,7 +90,7 @@ class Clock:
             tell(self.pipe, who, {"say": "refused", **asked, "because": str(error)})
             return
         tell(self.pipe, who, {"say": "done", **asked, **(answer or {})})
-        self.due[self.say_status] = 0.0
+        self.due[self.say_status] = self.due[self.say_frame] = 0.0  # who asked sees it at once
 
     def walk(self, passed: float) -> bool:
         """Laps for so much time [s]; whether there were any."""

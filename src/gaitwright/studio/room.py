@@ -134,7 +134,7 @@ class Room:
     def say_seen(self) -> None:
         """What the robot knows of the ground."""
         mind = self.run.session.mind
-        x, y, _ = self.run.session.measured.position_w.tolist()
+        x, y, _ = self.run.sensed.position_w.tolist()
         travel = mind.memories.navigator
         learned = travel if isinstance(travel, Travel) and self.run.setup.sight == "camera" else None
         self.say(seen_shown(mind.ground, learned, (x, y), SEES))
