@@ -259,7 +259,8 @@ export interface Embedded {
   rows: string;
   events: ReplayEvent[];
   report: Record<string, unknown>;
-  movers?: unknown;
+  /** where moving things were, time by time */
+  movers?: { time: number; things: Thing[] }[];
 }
 
 export interface ReplayEvent {
