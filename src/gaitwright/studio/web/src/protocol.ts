@@ -1,8 +1,10 @@
 // The studio's protocol, version 1: what server and page say to each other.
 // Lengths m, angles rad, world axes x forward, y left, z up; quaternions (w, x, y, z).
 
+import type { Rules } from "./protocol-rules";
 import type { Column, Thing, Vec2, Vec3, World } from "./protocol-scene";
 
+export * from "./protocol-rules";
 export * from "./protocol-scene";
 
 export type Mode = "guide" | "apprentice" | "plan";
@@ -106,58 +108,6 @@ export interface Seen {
   walls?: [number, number, number, number][];
   /** ways that it walked */
   walked?: Vec2[][];
-}
-
-export interface Tree {
-  name: string;
-  unit: string;
-  values: string[] | null;
-  kind?: string;
-  about?: string;
-  /** of each value the place of the one that it hangs below; −1: the root */
-  parents?: number[];
-}
-
-export interface Condition {
-  tree: string;
-  lower: number | null;
-  upper: number | null;
-  certain_lower: number | null;
-  certain_upper: number | null;
-  values: string[] | null;
-}
-
-export interface Rule {
-  name: string;
-  action: string;
-  skill: string;
-  status: string;
-  sentence: string;
-  firmness?: number;
-  conditions?: Condition[];
-  history?: (string | { sentence: string })[];
-  /** how many lessons it was right and wrong in, and since how many no mark moved */
-  right?: number;
-  wrong?: number;
-  quiet?: number;
-  /** by trees: how far it is known to hold, and not to */
-  marks?: Record<string, { upper: unknown; lower: unknown }>;
-}
-
-export interface Lesson {
-  id: string | number;
-  rule: string;
-  given: string;
-  about: string;
-}
-
-export interface Rules {
-  say: "rules";
-  trees: Tree[];
-  rules: Rule[];
-  lessons: Lesson[];
-  /** names of what can be said of a situation in numbers */
-  numbers?: string[];
 }
 
 export interface Why {
