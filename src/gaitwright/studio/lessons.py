@@ -6,7 +6,7 @@ from gaitwright.errors import WrongUse, unknown
 from gaitwright.knowledge.consult import consult
 from gaitwright.knowledge.explain import why_not
 from gaitwright.knowledge.memory import said_of
-from gaitwright.knowledge.rules import Rule, Rulebook
+from gaitwright.knowledge.rules import Rule, Rulebook, outside
 from gaitwright.knowledge.sentences import because, facts_of, history_lines
 from gaitwright.knowledge.trees import FeatureTree
 from gaitwright.learning.live import LiveLessons, Tried
@@ -49,6 +49,18 @@ class Lessons:
         here = source.here()
         self.open = self.live.correction(here, Shown(said.name, action, about=said.about), source.name)
         return self.tried_shown(self.open)
+
+    def order(self, rule: str, before: str, source: Running) -> dict[str, Any]:
+        """What it would do to have one rule before another where both could fire: a lesson at the last moment
+        seen at which the other one did. Raises `WrongUse` where there was none."""
+        book = self.rulebook
+        wanted, _ = book[rule], book[before]
+        for seen in reversed([*self.live.seen, source.here()]):
+            situation = in_trees_of(book, seen.moment.situation, seen.moment.facts)
+            if consult(book, situation).rule == before and not outside(book.forest, wanted, situation):
+                self.open = self.live.correction(seen, Shown(rule, wanted.action), source.name)
+                return self.tried_shown(self.open)
+        raise WrongUse(f"nowhere on this run did {before} fire where {rule} could too: that teaches no order")
 
     def ok(self, source: Running) -> str:
         """What it does now is right: learned at once; the lesson's name."""

@@ -4,6 +4,7 @@ A `Room` hears messages and says things; whoever runs it (`host`) gives it time.
 directly.
 """
 
+import math
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
@@ -17,9 +18,11 @@ from gaitwright.navigation.travel import Travel
 from gaitwright.record.previews import preview_of
 from gaitwright.record.recording import Recorder
 from gaitwright.session import DT
+from gaitwright.signals import GroundMap
 from gaitwright.skillbook.writer import Ledger
 from gaitwright.skills.library import skill_names
 from gaitwright.studio import messages as m
+from gaitwright.studio.composing import Score
 from gaitwright.studio.frames import columns_of, frame_of, row_of
 from gaitwright.studio.lessons import Lessons
 from gaitwright.studio.live_run import LiveRun
@@ -32,6 +35,9 @@ WATCHDOG = 0.3
 """A steering person who was not heard for so long has let go [s]."""
 SEES = 6.0
 """So far around the robot what it knows of the ground is shown [m]."""
+
+WENT_ON = 0.25
+"""It is shown again where the robot has gone so far [m]."""
 
 Say = Callable[[dict[str, Any]], None]
 Answer = dict[str, Any] | None
@@ -56,13 +62,16 @@ class Room:
             m.Push: self.push, m.PlaceBox: self.place, m.Move: self.move, m.Remove: self.remove,
             m.Record: self.record, m.Recordings: self.recordings, m.Right: self.right, m.Ok: self.ok,
             m.Keep: self.keep, m.Back: self.back, m.Forget: self.forget, m.Why: self.why,
+            m.Order: self.order, m.Compose: self.compose, m.Play: self.play,
         }  # fmt: skip
 
     def begin(self, setup: Setup) -> None:
         """A run from its start. Raises `WrongUse` or `BadFile`; then the one before goes on."""
         run = LiveRun(setup, self.ledger)
-        self.run, self.ticks = run, Counter[str]()
+        self.run, self.ticks, self.score = run, Counter[str](), Score()
         self.steered_at = None
+        self.shown: tuple[GroundMap | None, tuple[float, float]] = None, (0.0, 0.0)
+        """What was known of the ground when it was shown last, and where the robot was."""
 
     def welcome(self) -> None:
         """Says all that one who comes in has to know."""
@@ -88,7 +97,9 @@ class Room:
         """Does what is asked; what is answered beside that it is done. Raises `GaitwrightError`."""
         if type(message) not in self.does:
             raise WrongUse(f"{message.__struct_config__.tag} is not done here")
-        return self.does[type(message)](message)
+        answer = self.does[type(message)](message)
+        self.score.hear(self.run.time, message)
+        return answer
 
     # --- time ---------------------------------------------------------------------------------------
     def lap(self) -> bool:
@@ -97,10 +108,25 @@ class Room:
         if lap is None:
             return False
         self.ticks[lap.call.driver or self.run.driver] += 1
+        if self.score.playing:
+            self.play_on()
         return True
+
+    def play_on(self) -> None:
+        """Does what a composed motion asks for now; what cannot be done ends it."""
+        for message in self.score.due(self.run.time):
+            try:
+                self.does[type(message)](message)
+            except WrongUse as error:
+                self.score.playing = []
+                self.say({"say": "remark", "sentence": f"the motion ends here: {error}"})
+        if not self.score.playing:
+            self.say({"say": "remark", "sentence": "the motion was played"})
 
     def watch_over(self) -> None:
         """Stops a robot whose steering person is gone."""
+        if self.score.playing:
+            return
         if self.steered_at is not None and monotonic() - self.steered_at > WATCHDOG:
             self.stand(None)
 
@@ -114,7 +140,9 @@ class Room:
 
     def status(self) -> dict[str, Any]:
         """What is so now."""
+        composing, playing = self.score.begun is not None, bool(self.score.playing)
         own = {"mode": self.mode, "paused": self.paused, "pace": self.pace}
+        own |= {"composing": composing, "playing": playing, "composed": len(self.score.words)}
         return status_of(self.run, self.ticks) | own
 
     def say_world(self) -> None:
@@ -132,9 +160,12 @@ class Room:
             self.say(things_shown(now, now.things))
 
     def say_seen(self) -> None:
-        """What the robot knows of the ground."""
+        """What the robot knows of the ground, where that is more than before, or it went on a little."""
         mind = self.run.session.mind
         x, y, _ = self.run.sensed.position_w.tolist()
+        if self.shown[0] is mind.ground and math.dist(self.shown[1], (x, y)) < WENT_ON:
+            return
+        self.shown = mind.ground, (x, y)
         travel = mind.memories.navigator
         learned = travel if isinstance(travel, Travel) and self.run.setup.sight == "camera" else None
         self.say(seen_shown(mind.ground, learned, (x, y), SEES))
@@ -154,10 +185,15 @@ class Room:
 
     def skill(self, said: m.Skill) -> None:
         self.steered_at = None
-        if said.name:
-            self.run.hold(said.name, said.speed)
-        else:
+        if not said.name:
             self.run.let_choose()
+            return
+        proposed = None
+        if self.mode == "apprentice":  # what she does here may be right here: she says whether
+            proposed = self.lessons.right(m.Right(skill=said.name), self.run.lesson)
+        self.run.hold(said.name, said.speed)
+        if proposed is not None:
+            self.say(proposed | {"proposed": True})
 
     def drive(self, said: m.Drive) -> None:
         self.run.drive(said.driver)
@@ -167,6 +203,15 @@ class Room:
 
     def push(self, said: m.Push) -> None:
         self.run.push(said.impulse, said.direction)
+
+    def compose(self, said: m.Compose) -> Answer:
+        if said.on:
+            self.score.begin(self.run.time)
+            return None
+        return {"words": self.score.end()}
+
+    def play(self, said: m.Play) -> Answer:
+        return {"seconds": self.score.play(self.run.time)}
 
     # --- time, by message ---------------------------------------------------------------------------
     def pause(self, said: m.Pause) -> None:
@@ -234,6 +279,9 @@ class Room:
     # --- teaching -----------------------------------------------------------------------------------
     def right(self, said: m.Right) -> Answer:
         return self.lessons.right(said, self.run.lesson)
+
+    def order(self, said: m.Order) -> Answer:
+        return self.lessons.order(said.rule, said.before, self.run.lesson)
 
     def ok(self, said: m.Ok) -> Answer:
         return self.learned(self.lessons.ok(self.run.lesson))
