@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from threading import Thread
 from time import monotonic
 from typing import Any
 
@@ -26,7 +27,9 @@ from gaitwright.studio.composing import Score
 from gaitwright.studio.frames import columns_of, frame_of, row_of
 from gaitwright.studio.lessons import Lessons
 from gaitwright.studio.live_run import LiveRun
+from gaitwright.studio.page_build import PAGE
 from gaitwright.studio.recordings import Shelf
+from gaitwright.studio.replay import TEMPLATE, write_replay
 from gaitwright.studio.setup import DRIVERS, Setup
 from gaitwright.studio.shown import scan_shown, seen_shown, things_shown, world_shown
 from gaitwright.studio.status import status_of
@@ -52,6 +55,8 @@ class Room:
         self.shelf = Shelf(folder)
         self.mode: m.Mode = "plan"
         self.paused, self.pace = False, 1.0
+        self.writer: Thread | None = None
+        """Who writes the last recording as a page."""
         self.steered_at: float | None = None
         """When the person who steers was heard last; `None`: nobody steers."""
         self.begin(setup)
@@ -271,7 +276,13 @@ class Room:
         recorder, self.run.recorder = self.run.recorder, None
         if recorder is None or not recorder.laps:
             return None
-        return {"recording": self.shelf.keep(recorder.finish(), self.run.robot.name)}
+        recording = recorder.finish()
+        name = self.shelf.keep(recording, self.run.robot.name)
+        if (PAGE / TEMPLATE).is_file():  # beside it, as a page, while the robot goes on
+            where = self.shelf.folder / f"{name}.html"
+            self.writer = Thread(target=write_replay, args=(recording, where, PAGE, self.run.scene))
+            self.writer.start()
+        return {"recording": f"{name}.npz"}
 
     def recordings(self, said: m.Recordings) -> Answer:
         return {"recordings": self.shelf.listed()}
@@ -309,3 +320,5 @@ class Room:
         """Motors off; what was recorded is kept."""
         self.end_recording()
         self.run.session.close()
+        if self.writer is not None:
+            self.writer.join()
