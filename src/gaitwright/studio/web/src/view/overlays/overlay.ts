@@ -12,6 +12,8 @@ export interface Moment {
   layout: Layout;
   row: Float32Array;
   pose: Pose;
+  /** 1 for a robot as large as Go2: lines are thicker for larger ones. */
+  size: number;
   /** Height of what stands at a place. */
   height: (x: number, y: number) => number;
 }
