@@ -1,8 +1,10 @@
 // The studio's protocol, version 1: what server and page say to each other.
 // Lengths m, angles rad, world axes x forward, y left, z up; quaternions (w, x, y, z).
 
+import type { CurveKind } from "./protocol-curves";
 import type { Column, Thing, Vec2, Vec3, World } from "./protocol-scene";
 
+export * from "./protocol-curves";
 export * from "./protocol-scene";
 
 export type Mode = "guide" | "apprentice" | "plan";
@@ -53,6 +55,8 @@ export interface Status {
   velocity: Vec3;
   because: string;
   rule: string;
+  /** whether that rule was seen right just like this before */
+  firm?: boolean;
   route: Vec2[];
   goal: Vec2 | null;
   no_way: string | null;
@@ -65,6 +69,8 @@ export interface Status {
   fell: boolean;
   faults: string[];
   recording: boolean;
+  /** of the recording so far [s] */
+  recorded?: number;
   obstacle: string;
   /** the skill that a person holds; "": rules choose */
   held?: string;
@@ -108,23 +114,21 @@ export interface Seen {
   walked?: Vec2[][];
 }
 
+/** One feature: its values in order, each with the place of the one that it hangs below (−1: the root). */
 export interface Tree {
   name: string;
+  /** How a sentence on it begins. */
+  about: string;
   unit: string;
-  values: string[] | null;
-  kind?: string;
-  about?: string;
-  /** of each value the place of the one that it hangs below; −1: the root */
-  parents?: number[];
+  values: string[];
+  parents: number[];
 }
 
-export interface Condition {
-  tree: string;
-  lower: number | null;
-  upper: number | null;
-  certain_lower: number | null;
-  certain_upper: number | null;
-  values: string[] | null;
+/** Below the upper mark a rule may fire, below the lower one it was seen right; "A to B" and "A or B" are
+    marks too, of several leaves. */
+export interface Marks {
+  upper: string;
+  lower: string | null;
 }
 
 export interface Rule {
@@ -132,20 +136,20 @@ export interface Rule {
   action: string;
   skill: string;
   status: string;
+  /** Situations in which it was seen right, and wrong. */
+  right: number;
+  wrong: number;
+  /** Lessons since a mark moved. */
+  quiet: number;
   sentence: string;
-  firmness?: number;
-  conditions?: Condition[];
-  history?: (string | { sentence: string })[];
-  /** how many lessons it was right and wrong in, and since how many no mark moved */
-  right?: number;
-  wrong?: number;
-  quiet?: number;
-  /** by trees: how far it is known to hold, and not to */
-  marks?: Record<string, { upper: unknown; lower: unknown }>;
+  /** By the tree. */
+  marks: Record<string, Marks>;
+  /** What moved its marks, the oldest first. */
+  history: string[];
 }
 
 export interface Lesson {
-  id: string | number;
+  id: string;
   rule: string;
   given: string;
   about: string;
@@ -157,41 +161,36 @@ export interface Rules {
   rules: Rule[];
   lessons: Lesson[];
   /** names of what can be said of a situation in numbers */
-  numbers?: string[];
+  numbers: string[];
 }
 
+/** Answer to `why`. */
 export interface Why {
-  say: "why";
-  id: number;
   sentences: string[];
+  /** What would have to be different; "" where no rule is known. */
+  different: string;
+  /** Value of each tree now. */
+  situation: Record<string, string | null>;
+  /** The rule that fires by the book; "": none. */
+  fires: string;
 }
 
+/** Answer to `right`: what a lesson would do; nothing is learned before `keep`. */
 export interface Tried {
-  say: "tried";
-  id: number;
-  lesson: string | number;
+  lesson: string;
   sentence: string;
-  moves?: string[];
+  moves: string[];
   followed: boolean;
   stretches: string[];
   broken: string[];
   mended: string[];
 }
 
-export type CurveKind = "cycle" | "torque" | "angle";
-
-/** A curve with its limits; the editor knows the fields of each kind. */
-export interface Curve {
+/** Curves are other ones than before, or legs follow them now: ask again. */
+export interface Curves {
   say: "curve";
-  kind: CurveKind;
-  skill: string;
-  leg: string | number;
-  points: number[][];
-  measured: number[][];
-  undo: number | boolean;
-  redo: number | boolean;
-  edited: boolean;
-  [limit: string]: unknown;
+  edits: number;
+  pending: boolean;
 }
 
 export interface Recordings {
@@ -213,7 +212,7 @@ export interface Refused {
 }
 
 export type FromServer =
-  | Hello | Role | Closed | World | Status | Moved | Scan | Seen | Rules | Why | Tried | Curve | Recordings | Done | Refused;
+  | Hello | Role | Closed | World | Status | Moved | Scan | Seen | Rules | Curves | Recordings | Done | Refused;
 
 export type Command =
   | { do: "go"; x: number; y: number; then?: boolean }
@@ -230,14 +229,11 @@ export type Command =
   | { do: "remove"; thing: string | number }
   | { do: "record"; on: boolean }
   | { do: "right"; skill: string; speed?: number; turn?: number; about?: string; name?: string }
-  | { do: "forget"; lesson?: string | number }
+  | { do: "forget"; lesson?: string }
   | { do: "why"; rule?: string }
   | { do: "order"; rule: string; before: string }
-  | { do: "curve"; kind: CurveKind; skill: string; leg: number; joint?: number }
-  | {
-      do: "edit"; kind: CurveKind; skill: string; leg: number; joint?: number; points: number[][];
-      mirror: boolean;
-    }
+  | { do: "curve"; kind: CurveKind; skill?: string; leg: number }
+  | { do: "edit"; kind: CurveKind; skill: string; leg: number; points: number[][]; mirror: boolean }
   | {
       do: "stand" | "pause" | "resume" | "abort" | "take" | "release" | "keep" | "back" | "ok" | "undo" | "redo"
         | "save" | "recordings";
