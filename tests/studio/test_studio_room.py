@@ -70,15 +70,15 @@ def test_places_are_gone_to_one_after_the_other(room: Room):
 
 def test_it_goes_as_a_person_steers_and_stands_when_she_is_not_heard(room: Room, monkeypatch):
     now = [100.0]
-    monkeypatch.setattr("gaitwright.studio.room.monotonic", lambda: now[0])
+    monkeypatch.setattr("gaitwright.studio.driving_desk.monotonic", lambda: now[0])
     room.hears(m.Steer(forward=0.3))
     laps(room, 1.5)
     assert place(room)[0] > 0.1
     now[0] += 0.2
-    room.watch_over()
+    room.driving.watch_over()
     assert room.status()["skill"] != "stand"
     now[0] += 0.2
-    room.watch_over()
+    room.driving.watch_over()
     laps(room, 0.1)
     assert room.status()["skill"] == "stand"
 
@@ -192,7 +192,7 @@ def test_a_recording_holds_what_happened_between_on_and_off(room: Room):
     room.hears(m.Record(on=True))
     laps(room, 0.4)
     name = room.hears(m.Record(on=False))["recording"]
-    assert len(load(room.shelf.path(name))) == 200
+    assert len(load(room.recording.shelf.path(name))) == 200
     assert room.hears(m.Recordings())["recordings"][0]["name"] == name
 
 

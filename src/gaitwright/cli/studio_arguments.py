@@ -34,8 +34,9 @@ def add_studio(parser: argparse.ArgumentParser) -> None:
 
 
 def add_replay(parser: argparse.ArgumentParser) -> None:
+    page = "the page, or, with .mcap at its end, what Foxglove and Rerun open (RECORDING.html)"
     parser.add_argument("recording", metavar="RECORDING", help="a recording (.npz) of a trip")
-    parser.add_argument("--out", metavar="FILE", help="the page (RECORDING with .html at its end)")
+    parser.add_argument("--out", metavar="FILE", help=page)
     where = "the scene that it was recorded in (the one that it names)"
     parser.add_argument("--scene", metavar="NAME|FILE", help=where)
     parser.add_argument("--open", action="store_true", help="open it in the browser")

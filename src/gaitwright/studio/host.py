@@ -79,7 +79,7 @@ class Clock:
             said = self.pipe.recv_bytes()
             (who,) = FROM.unpack_from(said)
             self.answer(who, said[FROM.size :])
-        self.room.watch_over()
+        self.room.driving.watch_over()
 
     def answer(self, who: int, text: bytes) -> None:
         """Does what one asks, and says whether it is done."""
@@ -128,7 +128,7 @@ class Clock:
         self.room.say_scan()
 
     def say_seen(self) -> None:
-        self.room.lessons.look(self.room.run.lesson)
+        self.room.teaching.look()
         self.room.say_seen()
 
 

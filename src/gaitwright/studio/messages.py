@@ -22,7 +22,7 @@ Angle = Annotated[float, Meta(ge=-2.0 * math.pi, le=2.0 * math.pi)]
 Length = Annotated[float, Meta(gt=0.0, le=100.0)]
 Name = Annotated[str, Meta(max_length=200)]
 Number = Annotated[float, Meta(ge=-1e6, le=1e6)]
-Points = Annotated[list[Annotated[list[Number], Meta(min_length=2, max_length=3)]], Meta(max_length=128)]
+Points = Annotated[list[Annotated[list[Number], Meta(min_length=3, max_length=4)]], Meta(max_length=128)]
 Value = TypeVar("Value")
 Mode = Literal["guide", "apprentice", "plan"]
 MODES: tuple[Mode, ...] = ("guide", "apprentice", "plan")
@@ -77,6 +77,16 @@ class SetMode(Message, tag="mode"):
     """What a person is here for."""
 
     mode: Mode
+
+
+class Compose(Message):
+    """To begin a motion that is noted as it is asked for, or to end it."""
+
+    on: bool
+
+
+class Play(Message):
+    """The motion that was composed, from now on."""
 
 
 # --- time -------------------------------------------------------------------------------------------
@@ -214,22 +224,20 @@ Kind = Literal["cycle", "torque", "angle"]
 
 
 class Curve(Anyone):
-    """A curve of a skill to look at; `leg` counts from 0."""
+    """A curve of a skill to look at, of the one in use where none is named; `leg` counts from 0."""
 
     kind: Kind
     skill: Name = ""
     leg: Annotated[int, Meta(ge=0, le=16)] = 0
-    joint: Annotated[int, Meta(ge=0, le=2)] = 0
 
 
 class Edit(Message):
-    """Other points for a curve: tried, and taken on at the next cycle, or refused."""
+    """Other points for a curve: seen in physics, and taken on at the next cycle, or refused."""
 
     kind: Kind
     skill: Name
     leg: Annotated[int, Meta(ge=0, le=16)]
     points: Points
-    joint: Annotated[int, Meta(ge=0, le=2)] = 0
     mirror: bool = True
 
 
@@ -242,7 +250,7 @@ class Redo(Message):
 
 
 class Save(Message):
-    """Edits are kept in the skillbook."""
+    """Edits are kept: of torques in the skillbook, of leg cycles in files."""
 
 
 def kinds(of: type[Message]) -> list[type[Message]]:

@@ -37,6 +37,7 @@ def status_of(run: LiveRun, ticks: Counter[str]) -> dict[str, Any]:
         "obstacle": faced(route.ahead),
         "share": {name: count / whole for name, count in ticks.items()},
         "recording": run.recorder is not None,
+        "recorded": run.recorder.laps * run.recorder.dt if run.recorder else 0.0,
         "setup": {name: getattr(run.setup, name) for name in ("robot", "scene", "seed", "sight")},
     }
 

@@ -131,12 +131,18 @@ async def streamed(
 
 def serve_alone(ends: Ends, tells: Connection, page: Path) -> None:
     """The studio's server in a process of its own, its robots elsewhere."""
-    from gaitwright.studio.serving import Serving, bound, served  # noqa: PLC0415 - an extra
+    from gaitwright.studio.serving import Robot, Serving, bound, served  # noqa: PLC0415 - an extra
+
+    class Elsewhere(Robot):
+        """A robot whose other end is in another process already."""
+
+        def begin(self) -> None:
+            self.ends = ends
 
     with bound("127.0.0.1", 0) as place:
         tells.send(place.getsockname()[1])
         what = Serving(Setup(), Path(), Path(), page)
-        asyncio.run(served(what, TOKEN, ends, place))
+        asyncio.run(served(what, TOKEN, Elsewhere(what), place))
 
 
 def cpu_time(pid: int) -> float:

@@ -5,7 +5,7 @@ import { parseFrame } from "./frame";
 import { History } from "./history";
 import { Layout } from "./layout";
 import type {
-  Answer, Command, Curve, FromServer, Hello, Moved, Recordings, Role, Rules, Scan, Seen, Status, Tried, Why, World,
+  Answer, Command, Curves, FromServer, Hello, Moved, Recordings, Role, Rules, Scan, Seen, Status, World,
 } from "./protocol";
 import { Smooth } from "./smooth";
 import type { Link, Source } from "./source";
@@ -38,9 +38,7 @@ export class Live implements Source {
   readonly scan = signal<Scan | null>(null);
   readonly seen = signal<Seen | null>(null);
   readonly rules = signal<Rules | null>(null);
-  readonly why = signal<Why | null>(null);
-  readonly tried = signal<Tried | null>(null);
-  readonly curve = signal<Curve | null>(null);
+  readonly curve = signal<Curves | null>(null);
   readonly recordings = signal<Recordings | null>(null);
   readonly refusal = signal("");
   readonly layout = signal<Layout | null>(null);
@@ -54,8 +52,6 @@ export class Live implements Source {
     scan: this.scan,
     seen: this.seen,
     rules: this.rules,
-    why: this.why,
-    tried: this.tried,
     curve: this.curve,
     recordings: this.recordings,
   };
@@ -172,8 +168,6 @@ export class Live implements Source {
         break;
       default:
         this.know(message.say, message);
-        // an answer that is more than `done` is told as what it is
-        if ("id" in message) this.resolve(message.id as number, { done: true, more: { ...message } });
     }
   }
 
@@ -207,7 +201,6 @@ export class Live implements Source {
       return;
     }
     this.refusal.value = "";
-    if (Array.isArray(message.sentences)) this.know("why", message);
     if (Array.isArray(message.recordings)) this.know("recordings", { names: message.recordings });
     this.resolve(message.id, { done: true, more: message });
   }

@@ -4,8 +4,10 @@ import type { ComponentType } from "preact";
 import { DrivePanel } from "./drive/panel";
 import { WorldPanel } from "./drive/world-panel";
 import { PlotsPanel } from "./plots/panel";
+import { RulesPanel } from "./rules/panel";
 import type { Source } from "./source";
 import { StatusPanel } from "./state/panel";
+import { TeachPanel } from "./teach/panel";
 
 export interface Panel {
   id: string;
@@ -19,6 +21,8 @@ export interface Panel {
 export const panels: Panel[] = [
   { id: "drive", title: "Drive", dock: "left", view: DrivePanel },
   { id: "world", title: "World", dock: "left", view: WorldPanel },
+  { id: "teach", title: "Teach", dock: "left", view: TeachPanel },
   { id: "status", title: "Status", dock: "right", view: StatusPanel },
+  { id: "rules", title: "Rules", dock: "right", view: RulesPanel },
   { id: "plots", title: "Plots", dock: "right", view: PlotsPanel, replay: true },
 ];

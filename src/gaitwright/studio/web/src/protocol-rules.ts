@@ -1,22 +1,20 @@
 // Rules as the protocol has them.
 
+/** One feature: its values in order, each with the place of the one that it hangs below (−1: the root). */
 export interface Tree {
   name: string;
+  /** How a sentence on it begins. */
+  about: string;
   unit: string;
-  values: string[] | null;
-  kind?: string;
-  about?: string;
-  /** of each value the place of the one that it hangs below; −1: the root */
-  parents?: number[];
+  values: string[];
+  parents: number[];
 }
 
-export interface Condition {
-  tree: string;
-  lower: number | null;
-  upper: number | null;
-  certain_lower: number | null;
-  certain_upper: number | null;
-  values: string[] | null;
+/** Below the upper mark a rule may fire, below the lower one it was seen right; "A to B" and "A or B" are
+    marks too, of several leaves. */
+export interface Marks {
+  upper: string;
+  lower: string | null;
 }
 
 export interface Rule {
@@ -24,20 +22,20 @@ export interface Rule {
   action: string;
   skill: string;
   status: string;
+  /** Situations in which it was seen right, and wrong. */
+  right: number;
+  wrong: number;
+  /** Lessons since a mark moved. */
+  quiet: number;
   sentence: string;
-  firmness?: number;
-  conditions?: Condition[];
-  history?: (string | { sentence: string })[];
-  /** how many lessons it was right and wrong in, and since how many no mark moved */
-  right?: number;
-  wrong?: number;
-  quiet?: number;
-  /** by trees: how far it is known to hold, and not to */
-  marks?: Record<string, { upper: unknown; lower: unknown }>;
+  /** By the tree. */
+  marks: Record<string, Marks>;
+  /** What moved its marks, the oldest first. */
+  history: string[];
 }
 
 export interface Lesson {
-  id: string | number;
+  id: string;
   rule: string;
   given: string;
   about: string;
@@ -49,5 +47,5 @@ export interface Rules {
   rules: Rule[];
   lessons: Lesson[];
   /** names of what can be said of a situation in numbers */
-  numbers?: string[];
+  numbers: string[];
 }

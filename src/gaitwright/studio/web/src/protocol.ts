@@ -1,9 +1,11 @@
 // The studio's protocol, version 1: what server and page say to each other.
 // Lengths m, angles rad, world axes x forward, y left, z up; quaternions (w, x, y, z).
 
+import type { CurveKind } from "./protocol-curves";
 import type { Rules } from "./protocol-rules";
 import type { Column, Thing, Vec2, Vec3, World } from "./protocol-scene";
 
+export * from "./protocol-curves";
 export * from "./protocol-rules";
 export * from "./protocol-scene";
 
@@ -55,6 +57,8 @@ export interface Status {
   velocity: Vec3;
   because: string;
   rule: string;
+  /** whether that rule was seen right just like this before */
+  firm?: boolean;
   route: Vec2[];
   goal: Vec2 | null;
   no_way: string | null;
@@ -67,6 +71,8 @@ export interface Status {
   fell: boolean;
   faults: string[];
   recording: boolean;
+  /** of the recording so far [s] */
+  recorded?: number;
   obstacle: string;
   /** the skill that a person holds; "": rules choose */
   held?: string;
@@ -110,38 +116,33 @@ export interface Seen {
   walked?: Vec2[][];
 }
 
+/** Answer to `why`. */
 export interface Why {
-  say: "why";
-  id: number;
   sentences: string[];
+  /** What would have to be different; "" where no rule is known. */
+  different: string;
+  /** Value of each tree now. */
+  situation: Record<string, string | null>;
+  /** The rule that fires by the book; "": none. */
+  fires: string;
 }
 
+/** Answer to `right`: what a lesson would do; nothing is learned before `keep`. */
 export interface Tried {
-  say: "tried";
-  id: number;
-  lesson: string | number;
+  lesson: string;
   sentence: string;
-  moves?: string[];
+  moves: string[];
   followed: boolean;
   stretches: string[];
   broken: string[];
   mended: string[];
 }
 
-export type CurveKind = "cycle" | "torque" | "angle";
-
-/** A curve with its limits; the editor knows the fields of each kind. */
-export interface Curve {
+/** Curves are other ones than before, or legs follow them now: ask again. */
+export interface Curves {
   say: "curve";
-  kind: CurveKind;
-  skill: string;
-  leg: string | number;
-  points: number[][];
-  measured: number[][];
-  undo: number | boolean;
-  redo: number | boolean;
-  edited: boolean;
-  [limit: string]: unknown;
+  edits: number;
+  pending: boolean;
 }
 
 export interface Recordings {
@@ -163,7 +164,7 @@ export interface Refused {
 }
 
 export type FromServer =
-  | Hello | Role | Closed | World | Status | Moved | Scan | Seen | Rules | Why | Tried | Curve | Recordings | Done | Refused;
+  | Hello | Role | Closed | World | Status | Moved | Scan | Seen | Rules | Curves | Recordings | Done | Refused;
 
 export type Command =
   | { do: "go"; x: number; y: number; then?: boolean }
@@ -180,14 +181,11 @@ export type Command =
   | { do: "remove"; thing: string | number }
   | { do: "record"; on: boolean }
   | { do: "right"; skill: string; speed?: number; turn?: number; about?: string; name?: string }
-  | { do: "forget"; lesson?: string | number }
+  | { do: "forget"; lesson?: string }
   | { do: "why"; rule?: string }
   | { do: "order"; rule: string; before: string }
-  | { do: "curve"; kind: CurveKind; skill: string; leg: number; joint?: number }
-  | {
-      do: "edit"; kind: CurveKind; skill: string; leg: number; joint?: number; points: number[][];
-      mirror: boolean;
-    }
+  | { do: "curve"; kind: CurveKind; skill?: string; leg: number }
+  | { do: "edit"; kind: CurveKind; skill: string; leg: number; points: number[][]; mirror: boolean }
   | {
       do: "stand" | "pause" | "resume" | "abort" | "take" | "release" | "keep" | "back" | "ok" | "undo" | "redo"
         | "save" | "recordings";

@@ -4,7 +4,7 @@ import type { ReadonlySignal } from "@preact/signals";
 import type { History } from "./history";
 import type { Layout } from "./layout";
 import type {
-  Answer, Command, Curve, Hello, Moved, Recordings, Role, Rules, Scan, Seen, Status, Tried, Why, World,
+  Answer, Command, Curves, Hello, Moved, Recordings, Role, Rules, Scan, Seen, Status, World,
 } from "./protocol";
 
 export type Link = "connecting" | "open" | "lost";
@@ -22,9 +22,7 @@ export interface Source {
   readonly scan: ReadonlySignal<Scan | null>;
   readonly seen: ReadonlySignal<Seen | null>;
   readonly rules: ReadonlySignal<Rules | null>;
-  readonly why: ReadonlySignal<Why | null>;
-  readonly tried: ReadonlySignal<Tried | null>;
-  readonly curve: ReadonlySignal<Curve | null>;
+  readonly curve: ReadonlySignal<Curves | null>;
   readonly recordings: ReadonlySignal<Recordings | null>;
   /** The last refusal, for the bar below; "" where there is none. */
   readonly refusal: ReadonlySignal<string>;

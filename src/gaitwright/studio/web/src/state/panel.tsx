@@ -1,6 +1,6 @@
 // What is so: who drives and why, which rule, what lies ahead, how it stands, what is broken.
 
-import type { Condition, Rule, Status } from "../protocol";
+import type { Rule, Status } from "../protocol";
 import type { Source } from "../source";
 import { driverColour, skillColour } from "../ui/colours";
 import { Field, number, Section } from "../ui/controls";
@@ -96,32 +96,11 @@ function RuleBody({ rule }: { rule: Rule }) {
   return (
     <>
       <p>{rule.sentence || rule.action}</p>
-      {rule.conditions && rule.conditions.length > 0 && (
-        <ul class="conditions">
-          {rule.conditions.map((one, k) => (
-            <li key={k}>{inWords(one)}</li>
-          ))}
-        </ul>
-      )}
-      {rule.right !== undefined && (
-        <p class="faint">
-          right in {rule.right}, wrong in {rule.wrong}; since {rule.quiet} no mark moved
-        </p>
-      )}
-      {rule.firmness !== undefined && (
-        <div class="firmness" title={`firmness ${number(rule.firmness)}`}>
-          <span style={{ width: `${100 * Math.max(0, Math.min(1, rule.firmness))}%` }} />
-        </div>
-      )}
+      <p class="faint">
+        right in {rule.right}, wrong in {rule.wrong}; since {rule.quiet} no mark moved
+      </p>
     </>
   );
-}
-
-function inWords({ tree, lower, upper, values }: Condition): string {
-  if (values?.length) return `${tree}: ${values.join(", ")}`;
-  if (lower !== null && upper !== null) return `${tree}: ${number(lower)} … ${number(upper)}`;
-  if (lower !== null) return `${tree} ≥ ${number(lower)}`;
-  return upper !== null ? `${tree} ≤ ${number(upper)}` : tree;
 }
 
 function Ahead({ status }: { status: Status }) {
