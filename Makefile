@@ -10,7 +10,7 @@ check:
 .venv/ready: pyproject.toml constraints.txt start.py
 	python3 start.py test --version
 	@echo "==> installing the tools for development"
-	$(INSTALL) -e '.[plot,record]' --group dev
+	$(INSTALL) -e '.[plot,record,studio]' --group dev
 	@touch $@
 
 format: .venv/ready
@@ -36,7 +36,7 @@ bench: .venv/ready
 constraints: .venv/ready
 	@echo "==> resolving every dependency to its newest version"
 	printf 'hatchling\nuv\n' | $(BIN)/uv pip compile pyproject.toml - --universal --python-version 3.11 --upgrade --quiet \
-	    --all-extras --group dev --no-header --no-annotate --no-emit-index-url --no-emit-find-links \
+	    --all-extras --group dev --group page --no-header --no-annotate --no-emit-index-url --no-emit-find-links \
 	    --output-file constraints.txt
 
 clean:

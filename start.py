@@ -24,6 +24,7 @@ CHECK_AGE = "import sys; sys.exit(sys.version_info < (3, 11))"
 GROUPS = {
     "test": ["--group", "test"],
     "check": ["--group", "dev"],
+    "studio": [] if shutil.which("npm") else ["--group", "page"],
 }  # what a command needs besides the package
 CHECKS = {
     "format": ["ruff", "format", "--check"],
@@ -31,8 +32,16 @@ CHECKS = {
     "types": ["pyright"],
     "law": ["lint-imports"],
 }
-TESTS = ["pytest", "-n", "auto", "--maxprocesses", "4"]  # one process for each core; `-n 0` for one in all
-PINNED = ["-c", "constraints.txt", "-b", "constraints.txt", "-e", ".[plot,record]"]
+TESTS = [
+    "pytest",
+    "-n",
+    "auto",
+    "--maxprocesses",
+    "4",
+    "--dist",
+    "loadgroup",
+]  # one process for each core; `-n 0` for one in all
+PINNED = ["-c", "constraints.txt", "-b", "constraints.txt", "-e", ".[plot,record,studio]"]
 
 
 def step(what, *command):

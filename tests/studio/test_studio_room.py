@@ -42,7 +42,7 @@ def laps(room: Room, seconds: float) -> None:
 
 
 def place(room: Room) -> np.ndarray:
-    return room.run.session.measured.position_w.copy()
+    return room.run.sensed.position_w.copy()
 
 
 # --- where to go ------------------------------------------------------------------------------------
@@ -70,15 +70,15 @@ def test_places_are_gone_to_one_after_the_other(room: Room):
 
 def test_it_goes_as_a_person_steers_and_stands_when_she_is_not_heard(room: Room, monkeypatch):
     now = [100.0]
-    monkeypatch.setattr("gaitwright.studio.room.monotonic", lambda: now[0])
+    monkeypatch.setattr("gaitwright.studio.driving_desk.monotonic", lambda: now[0])
     room.hears(m.Steer(forward=0.3))
     laps(room, 1.5)
     assert place(room)[0] > 0.1
     now[0] += 0.2
-    room.watch_over()
+    room.driving.watch_over()
     assert room.status()["skill"] != "stand"
     now[0] += 0.2
-    room.watch_over()
+    room.driving.watch_over()
     laps(room, 0.1)
     assert room.status()["skill"] == "stand"
 
@@ -132,6 +132,7 @@ def test_what_cannot_be_done_changes_nothing(room: Room, message: m.Message, sen
 
 # --- time -------------------------------------------------------------------------------------------
 def test_time_goes_on_step_by_step_where_it_stands(room: Room):
+    laps(room, 0.1)
     room.hears(m.Pause())
     before = room.run.time
     room.hears(m.Step(ticks=5))
@@ -183,7 +184,7 @@ def test_a_push_is_felt(room: Room):
     laps(room, 0.2)
     room.hears(m.Push(impulse=0.4, direction=math.pi / 2))
     laps(room, 0.1)
-    assert room.run.session.measured.velocity_w[1] > 0.1
+    assert room.run.sensed.velocity_w[1] > 0.1
 
 
 # --- what is kept -----------------------------------------------------------------------------------
@@ -191,11 +192,12 @@ def test_a_recording_holds_what_happened_between_on_and_off(room: Room):
     room.hears(m.Record(on=True))
     laps(room, 0.4)
     name = room.hears(m.Record(on=False))["recording"]
-    assert len(load(room.shelf.path(name))) == 200
+    assert len(load(room.recording.shelf.path(name))) == 200
     assert room.hears(m.Recordings())["recordings"][0]["name"] == name
 
 
 def test_a_lesson_is_tried_first_and_in_the_book_once_it_is_kept(room: Room, said: list[dict]):
+    room.hears(m.Reset(scene="flat"))
     room.hears(m.Go(x=3.0, y=0.0))
     laps(room, 0.6)
     tried = room.hears(m.Right(skill="pace"))

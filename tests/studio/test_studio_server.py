@@ -1,9 +1,12 @@
 """The studio's server as those who reach it meet it: who is let in, what is refused, who drives."""
 
 import http.client
+import os
+import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 from page_fixtures import Line, Studio, close
@@ -177,3 +180,22 @@ def test_what_cannot_be_opened_is_told_in_a_sentence(page_is_built: None, tmp_pa
     done = subprocess.run([*command, *options], capture_output=True, text=True, timeout=120.0, check=False)
     assert done.returncode == code and sentence in done.stderr, done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_a_run_whose_process_died_is_begun_again_by_a_reset(page_is_built: None, tmp_path):
+    studio = Studio(tmp_path, "--scene", "flat")
+    line = studio.line()
+    (child,) = (
+        int(pid)
+        for pid in Path(f"/proc/{studio.process.pid}/task/{studio.process.pid}/children")
+        .read_text()
+        .split()[-1:]
+    )
+    os.kill(child, signal.SIGKILL)
+    closed = line.until(lambda said: said["say"] == "closed")
+    assert "unexpectedly" in closed["because"]
+    assert "a reset begins another" in line.refused(do="go", x=1.0, y=0.0)
+    line.done(do="reset", scene="stairs")
+    assert line.status(lambda said: said["time"] > 0.0)["setup"]["scene"] == "stairs"
+    line.done(do="go", x=1.0, y=0.0)
+    assert studio.close() == 0

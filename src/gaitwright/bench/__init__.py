@@ -25,6 +25,7 @@ GROUPS = {
         "newcomers",
     ),
     "unknown": ("worlds", "maps", "eyes", "seeing", "moving"),
+    "studio": ("studio",),
     "outside": ("strangers", "fuzz", "faults"),
 }
 """Groups of claims, each claim the name of a module here, in the order in which they are measured."""

@@ -31,7 +31,7 @@ from gaitwright.cli.guidance_arguments import SECONDS, add_guidance
 from gaitwright.cli.operator_arguments import add_operators
 from gaitwright.cli.scanner_arguments import add_scanner
 from gaitwright.cli.sight_arguments import add_sight
-from gaitwright.cli.studio_arguments import add_studio
+from gaitwright.cli.studio_arguments import add_replay, add_studio
 from gaitwright.plant.names import FAULTS, INTEGRATORS, JOINTS, PLANTS, SENSORS
 
 
@@ -296,5 +296,6 @@ ADD = {
     "bench": add_bench,
     "reproduce": add_reproduce,
     "studio": add_studio,
+    "replay": add_replay,
     "doctor": add_nothing,
 }

@@ -195,6 +195,16 @@ COMMANDS = {
             "gaitwright studio --skillbook runs/demo-001/school.skills --no-browser --port 0 --json -",
         ),
     ),
+    "replay": Command(
+        "a recording as one page that opens by a double click",
+        "Writes a page with a recording in it: robot and ground in 3-D, plots, who drove, the rules lit, and "
+        "a scrubber. It needs no server and no network, and can be sent to a colleague. Recordings are what "
+        "`gaitwright mission --out DIR`, `demo` and the studio leave.",
+        (
+            "gaitwright replay runs/demo-001/first/recording.npz --open",
+            "gaitwright replay trip.npz --out trip.html --scene yard.json",
+        ),
+    ),
     "doctor": Command(
         "what is installed, what is missing, how to mend it",
         "Looks at Python, the packages and the folder, and names the one command that mends what is missing. "

@@ -18,7 +18,11 @@ from gaitwright.cli.sentences import between_words
 
 CORE = ("filelock", "jaxtyping", "msgspec", "mujoco", "numba", "numpy", "pillow", "rich", "shapely")
 """What Gaitwright cannot run without, by the names of modules and distributions."""
-EXTRAS = {"plot": ("matplotlib",), "record": ("mcap-ros2-support",)}
+EXTRAS = {
+    "plot": ("matplotlib",),
+    "record": ("mcap-ros2-support",),
+    "studio": ("starlette", "uvicorn", "websockets"),
+}
 MODULES = {"mcap-ros2-support": "mcap_ros2", "pillow": "PIL"}
 """Modules that are not named as their distribution."""
 MUJOCO = "3.10 or later, not 4.0.0"
@@ -113,7 +117,7 @@ def extra(group: str, package: str) -> Finding:
     if found and find_spec(MODULES.get(package, package)):
         return Finding(package, f"{found} (extra {group})", True, needed=False)
     return Finding(
-        package, f"not installed (extra {group})", False, needed=False, mend=install("[plot,record]")
+        package, f"not installed (extra {group})", False, needed=False, mend=install("[plot,record,studio]")
     )
 
 

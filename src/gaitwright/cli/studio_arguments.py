@@ -1,4 +1,4 @@
-"""The options of `gaitwright studio`."""
+"""The options of `gaitwright studio` and `gaitwright replay`."""
 
 import argparse
 
@@ -31,3 +31,12 @@ def add_studio(parser: argparse.ArgumentParser) -> None:
     name = "the address to serve on (127.0.0.1: this machine alone)"
     parser.add_argument("--host", default="127.0.0.1", metavar="ADDRESS", help=name)
     parser.add_argument("--no-browser", action="store_true", help="only say where it is")
+
+
+def add_replay(parser: argparse.ArgumentParser) -> None:
+    page = "the page, or, with .mcap at its end, what Foxglove and Rerun open (RECORDING.html)"
+    parser.add_argument("recording", metavar="RECORDING", help="a recording (.npz) of a trip")
+    parser.add_argument("--out", metavar="FILE", help=page)
+    where = "the scene that it was recorded in (the one that it names)"
+    parser.add_argument("--scene", metavar="NAME|FILE", help=where)
+    parser.add_argument("--open", action="store_true", help="open it in the browser")

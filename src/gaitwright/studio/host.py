@@ -79,7 +79,7 @@ class Clock:
             said = self.pipe.recv_bytes()
             (who,) = FROM.unpack_from(said)
             self.answer(who, said[FROM.size :])
-        self.room.watch_over()
+        self.room.driving.watch_over()
 
     def answer(self, who: int, text: bytes) -> None:
         """Does what one asks, and says whether it is done."""
@@ -90,7 +90,7 @@ class Clock:
             tell(self.pipe, who, {"say": "refused", **asked, "because": str(error)})
             return
         tell(self.pipe, who, {"say": "done", **asked, **(answer or {})})
-        self.due[self.say_status] = 0.0
+        self.due[self.say_status] = self.due[self.say_frame] = 0.0  # who asked sees it at once
 
     def walk(self, passed: float) -> bool:
         """Laps for so much time [s]; whether there were any."""
@@ -128,7 +128,7 @@ class Clock:
         self.room.say_scan()
 
     def say_seen(self) -> None:
-        self.room.lessons.look(self.room.run.lesson)
+        self.room.teaching.look()
         self.room.say_seen()
 
 

@@ -10,10 +10,10 @@ import json
 from collections.abc import Callable
 
 from gaitwright.errors import WrongUse
-from gaitwright.studio.messages import Anyone, Release, Take, id_of, message_of
+from gaitwright.studio.messages import Anyone, Release, Reset, Take, id_of, message_of
 
 MOST_ANSWERS, MOST_WATCHERS = 256, 64
-KINDS = ("hello", "world", "rules", "status", "scan", "seen", "moved", "curve", "closed")
+KINDS = ("hello", "world", "rules", "status", "scan", "seen", "moved", "curve", "remark", "closed")
 """What is said to everybody; one who comes later is told the last of each, in this order."""
 
 
@@ -37,10 +37,11 @@ class Member:
 
 
 class Hub:
-    """All pages of a studio. `ask` hands a message of one of them to the host."""
+    """All pages of a studio. `ask` hands a message of one of them to the host; `restart` begins another run
+    where that has ended."""
 
-    def __init__(self, ask: Callable[[int, bytes], None]) -> None:
-        self.ask = ask
+    def __init__(self, ask: Callable[[int, bytes], None], restart: Callable[[Reset], None]) -> None:
+        self.ask, self.restart = ask, restart
         self.members: dict[int, Member] = {}
         self.driver: int | None = None
         self.last: dict[str, str] = {}
@@ -58,10 +59,9 @@ class Hub:
         self.members[member.number] = member
         if self.driver is None:
             self.driver = member.number
-        member.said = {kind: self.last[kind] for kind in KINDS if kind in self.last}
-        member.frame = self.last_frame
-        member.news.set()
         self.tell_roles()
+        member.said |= {kind: self.last[kind] for kind in KINDS if kind in self.last}
+        member.frame = self.last_frame
         return member
 
     def leave(self, member: Member) -> None:
@@ -88,15 +88,21 @@ class Hub:
                 self.hand_over(member, isinstance(message, Take))
                 self.answer(member.number, json.dumps({"say": "done", "id": message.id}))
                 return
-            if self.closed:
-                raise WrongUse("the run has ended: start the studio again")
             if member.number != self.driver and not isinstance(message, Anyone):
                 raise WrongUse("somebody else drives: `take` the wheel first")
+            if self.closed and not isinstance(message, Reset):
+                raise WrongUse("the run has ended: a reset begins another")
         except WrongUse as error:
             refused = {"say": "refused", "id": id_of(text), "because": str(error)}
             self.answer(member.number, json.dumps(refused))
             return
-        self.ask(member.number, text.encode() if isinstance(text, str) else text)
+        if self.closed and isinstance(message, Reset):
+            self.closed = False
+            self.last = {}
+            self.restart(message)
+            self.answer(member.number, json.dumps({"say": "done", "id": message.id}))
+        else:
+            self.ask(member.number, text.encode() if isinstance(text, str) else text)
 
     def hand_over(self, member: Member, takes: bool) -> None:
         """One takes the wheel, or lets it go."""

@@ -23,7 +23,7 @@ from gaitwright.plant.seeing import SeeingPlant
 from gaitwright.record.recording import Recorder
 from gaitwright.record.scene_of import scene_for
 from gaitwright.session import DT, Push, Session
-from gaitwright.signals import Mission
+from gaitwright.signals import Mission, Sensed
 from gaitwright.skillbook.writer import Ledger
 from gaitwright.skills.chooser import fixed_skill
 from gaitwright.skills.commanded import guarded
@@ -73,8 +73,13 @@ class LiveRun:
         return bool(book.profiles) and book.robot == self.robot.name
 
     @property
+    def sensed(self) -> Sensed:
+        """The robot's state at the last lap, or at the start."""
+        return self.session.measured if self.lap is None else self.lap.sensed
+
+    @property
     def time(self) -> float:
-        return self.session.measured.time
+        return self.sensed.time
 
     def begun(self) -> Session:
         """The session at its start: the robot stands until somebody says more."""
@@ -165,12 +170,12 @@ class LiveRun:
     def push(self, impulse: float, direction: float) -> None:
         """A push now; `direction` in the world [rad]."""
         from_ahead = math.degrees(direction) - math.degrees(self.yaw)
-        self.session.push(Push(impulse, from_ahead, at=self.time))
+        self.session.push(Push(impulse, from_ahead, at=0.0))
 
     @property
     def yaw(self) -> float:
         """Where the robot looks, in the world [rad]."""
-        w, x, y, z = self.session.measured.orientation_wb.tolist()
+        w, x, y, z = self.sensed.orientation_wb.tolist()
         return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
     # --- the world ----------------------------------------------------------------------------------
@@ -209,7 +214,7 @@ class LiveRun:
 
     def check_clear(self, box: Box) -> None:
         """Raises `WrongUse` for a box that is where the robot is."""
-        x, y = self.session.measured.position_w[:2].tolist()
+        x, y = self.sensed.position_w[:2].tolist()
         room = 0.6 * self.robot.body_length + half_width(self.robot)
         dx, dy = x - box.x, y - box.y
         c, s = math.cos(box.yaw), math.sin(box.yaw)

@@ -79,6 +79,16 @@ class SetMode(Message, tag="mode"):
     mode: Mode
 
 
+class Compose(Message):
+    """To begin a motion that is noted as it is asked for, or to end it."""
+
+    on: bool
+
+
+class Play(Message):
+    """The motion that was composed, from now on."""
+
+
 # --- time -------------------------------------------------------------------------------------------
 class Pause(Message):
     """Time stands."""

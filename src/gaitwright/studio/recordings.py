@@ -26,14 +26,14 @@ class Shelf:
         self.folder = folder
 
     def keep(self, recording: Kept, robot: str) -> str:
-        """Writes a recording; its name. Nothing that is there is written over."""
+        """Writes a recording; its name, without an ending. Nothing that is there is written over."""
         self.folder.mkdir(parents=True, exist_ok=True)
         stem = f"{datetime.now():%Y-%m-%d_%H-%M-%S}_{robot}"
         stem = re.sub(r"[^a-z0-9_.-]", "-", stem.lower())
         names = (stem, *(f"{stem}_{k}" for k in range(2, MOST)))
         name = next(one for one in names if not (self.folder / f"{one}.npz").exists())
         recording.save(self.folder / f"{name}.npz")
-        return f"{name}.npz"
+        return name
 
     def listed(self) -> list[dict[str, Any]]:
         """Name and size of each, the newest first."""
@@ -43,8 +43,18 @@ class Shelf:
         files.sort(key=lambda path: path.stat().st_mtime, reverse=True)
         return [{"name": path.name, "bytes": path.stat().st_size} for path in files[:MOST]]
 
+    def has(self, name: str) -> bool:
+        """Whether there is a file of that name."""
+        return bool(NAME.fullmatch(name)) and (self.folder / name).is_file()
+
     def path(self, name: str) -> Path:
         """The file of that name. Raises `WrongUse` for one that is not there, or no name of this folder's."""
-        if not NAME.fullmatch(name) or not (self.folder / name).is_file():
+        if not self.has(name):
+            raise WrongUse(f"there is no recording {name[:100]!r}")
+        return self.folder / name
+
+    def place(self, name: str) -> Path:
+        """Where a file of that name is, or would be. Raises `WrongUse` for what is no name."""
+        if not NAME.fullmatch(name):
             raise WrongUse(f"there is no recording {name[:100]!r}")
         return self.folder / name

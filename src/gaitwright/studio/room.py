@@ -1,43 +1,52 @@
 """What a person asks for → the run, and what is told of it: the studio without a page, a clock or a network.
 
 A `Room` hears messages and says things; whoever runs it (`host`) gives it time. So a test can talk to it
-directly.
+directly. What is asked is done at desks, each for one kind of thing; a desk says what it `does`, and attends to
+the run that is under way.
 """
 
+import math
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from time import monotonic
-from typing import Any
+from typing import Any, Protocol
 
 from gaitwright.errors import WrongUse
-from gaitwright.ground.scenes_list import scene_names
-from gaitwright.ground.terrain import Box
-from gaitwright.model.catalogue import ROBOTS
 from gaitwright.navigation.travel import Travel
 from gaitwright.record.previews import preview_of
-from gaitwright.record.recording import Recorder
-from gaitwright.session import DT
+from gaitwright.signals import GroundMap
 from gaitwright.skillbook.writer import Ledger
 from gaitwright.skills.library import skill_names
 from gaitwright.studio import messages as m
 from gaitwright.studio.curve_desk import CurveDesk
+from gaitwright.studio.driving_desk import DrivingDesk
 from gaitwright.studio.frames import columns_of, frame_of, row_of
-from gaitwright.studio.lessons import Lessons
 from gaitwright.studio.live_run import LiveRun
-from gaitwright.studio.recordings import Shelf
+from gaitwright.studio.recording_desk import RecordingDesk
 from gaitwright.studio.setup import DRIVERS, Setup
 from gaitwright.studio.shown import scan_shown, seen_shown, things_shown, world_shown
 from gaitwright.studio.status import status_of
+from gaitwright.studio.teaching_desk import TeachingDesk
+from gaitwright.studio.world_desk import WorldDesk
 
-WATCHDOG = 0.3
-"""A steering person who was not heard for so long has let go [s]."""
 SEES = 6.0
 """So far around the robot what it knows of the ground is shown [m]."""
+WENT_ON = 0.25
+"""It is shown again where the robot has gone so far [m]."""
 
 Say = Callable[[dict[str, Any]], None]
 Answer = dict[str, Any] | None
+
+
+class Desk(Protocol):
+    """Where some kind of thing is done."""
+
+    does: dict[type[m.Message], Callable[[Any], Answer]]
+
+    def attend(self, run: LiveRun) -> None:
+        """From now on it is about this run."""
+        ...
 
 
 class Room:
@@ -45,58 +54,43 @@ class Room:
 
     def __init__(self, setup: Setup, ledger: Ledger, folder: Path, say: Say) -> None:
         self.ledger, self.say = ledger, say
-        self.lessons = Lessons(ledger)
-        self.shelf = Shelf(folder)
-        self.curves = CurveDesk(ledger, folder, say)
-        self.mode: m.Mode = "plan"
         self.paused, self.pace = False, 1.0
-        self.steered_at: float | None = None
-        """When the person who steers was heard last; `None`: nobody steers."""
-        self.begin(setup)
+        self.teaching = TeachingDesk(ledger, say)
+        self.driving = DrivingDesk(self.teaching, say)
+        self.recording = RecordingDesk(folder)
+        self.curves = CurveDesk(ledger, folder, say)
+        self.world = WorldDesk(self.say_world)
+        desks: tuple[Desk, ...] = (self.driving, self.teaching, self.curves, self.recording, self.world)
+        self.desks = desks
         self.does: dict[type[m.Message], Callable[[Any], Answer]] = {
-            m.Go: self.go, m.Steer: self.steer, m.Stand: self.stand, m.Skill: self.skill,
-            m.Drive: self.drive, m.SetMode: self.set_mode, m.Pause: self.pause, m.Resume: self.resume,
-            m.Step: self.step, m.Pace: self.set_pace, m.Abort: self.abort, m.Reset: self.reset,
-            m.Push: self.push, m.PlaceBox: self.place, m.Move: self.move, m.Remove: self.remove,
-            m.Record: self.record, m.Recordings: self.recordings, m.Right: self.right, m.Ok: self.ok,
-            m.Keep: self.keep, m.Back: self.back, m.Forget: self.forget, m.Why: self.why,
-            **self.curves.does,
+            m.Pause: self.pause, m.Resume: self.resume, m.Step: self.step, m.Pace: self.set_pace,
+            m.Reset: self.reset,
         }  # fmt: skip
+        for desk in desks:
+            self.does |= desk.does
+        self.begin(setup)
 
     def begin(self, setup: Setup) -> None:
         """A run from its start. Raises `WrongUse` or `BadFile`; then the one before goes on."""
-        run = LiveRun(setup, self.ledger)
-        self.run, self.ticks = run, Counter[str]()
-        self.curves.attend(run)
-        self.steered_at = None
-
-    def welcome(self) -> None:
-        """Says all that one who comes in has to know."""
-        self.lessons.warm_up(self.run.lesson)
-        run = self.run
-        self.say(
-            {
-                "say": "hello",
-                "version": 1,
-                "columns": columns_of(run.robot.n),
-                "choices": {
-                    "robots": list(ROBOTS),
-                    "scenes": [{"name": name, "about": about} for name, about in scene_names().items()],
-                    "drivers": list(DRIVERS),
-                    "modes": list(m.MODES),
-                    "skills": list(skill_names(run.robot.n)),
-                },
-            }
-        )
-        self.say_world()
-        self.say(self.lessons.rules_shown())
-        self.say(self.status())
+        self.run = LiveRun(setup, self.ledger)
+        self.ticks = Counter[str]()
+        self.shown: tuple[GroundMap | None, tuple[float, float]] = None, (0.0, 0.0)
+        """What was known of the ground when it was shown last, and where the robot was."""
+        for desk in self.desks:
+            desk.attend(self.run)
 
     def hears(self, message: m.Message) -> Answer:
         """Does what is asked; what is answered beside that it is done. Raises `GaitwrightError`."""
         if type(message) not in self.does:
             raise WrongUse(f"{message.__struct_config__.tag} is not done here")
-        return self.does[type(message)](message)
+        answer = self.does[type(message)](message)
+        self.driving.score.hear(self.run.time, message)
+        return answer
+
+    def close(self) -> None:
+        """Motors off; what was recorded is kept."""
+        self.recording.close()
+        self.run.session.close()
 
     # --- time ---------------------------------------------------------------------------------------
     def lap(self) -> bool:
@@ -105,79 +99,10 @@ class Room:
         if lap is None:
             return False
         self.ticks[lap.call.driver or self.run.driver] += 1
+        self.driving.after()
         self.curves.after()
         return True
 
-    def watch_over(self) -> None:
-        """Stops a robot whose steering person is gone."""
-        if self.steered_at is not None and monotonic() - self.steered_at > WATCHDOG:
-            self.stand(None)
-
-    def frame(self, sequence: int) -> bytes | None:
-        """What is drawn now; `None` before the first lap."""
-        lap, memories = self.run.lap, self.run.session.mind.memories
-        if lap is None:
-            return None
-        row = row_of(lap, memories, DRIVERS)
-        return frame_of([row], sequence, self.paused)
-
-    def status(self) -> dict[str, Any]:
-        """What is so now."""
-        own = {"mode": self.mode, "paused": self.paused, "pace": self.pace}
-        return status_of(self.run, self.ticks) | own
-
-    def say_world(self) -> None:
-        self.say(world_shown(self.run.scene, [self.run.robot], self.run.boxes))
-
-    def say_scan(self) -> None:
-        """What the terrain scanner holds, and where moving things are."""
-        lap = self.run.lap
-        if lap is None or not lap.sensed.is_finite():
-            return
-        preview = preview_of(self.run.robot, lap, self.run.session.mind)
-        self.say(scan_shown(preview, self.run.scene.at(self.run.time)))
-        if self.run.scene.movers:
-            now = self.run.scene.at(self.run.time)
-            self.say(things_shown(now, now.things))
-
-    def say_seen(self) -> None:
-        """What the robot knows of the ground."""
-        mind = self.run.session.mind
-        x, y, _ = self.run.session.measured.position_w.tolist()
-        travel = mind.memories.navigator
-        learned = travel if isinstance(travel, Travel) and self.run.setup.sight == "camera" else None
-        self.say(seen_shown(mind.ground, learned, (x, y), SEES))
-
-    # --- where to go --------------------------------------------------------------------------------
-    def go(self, said: m.Go) -> None:
-        self.steered_at = None
-        self.run.go(said.x, said.y, said.then)
-
-    def steer(self, said: m.Steer) -> None:
-        self.run.steer(said.forward, said.left, said.turn)
-        self.steered_at = monotonic()
-
-    def stand(self, said: m.Stand | None) -> None:
-        self.steered_at = None
-        self.run.steer(0.0, 0.0, 0.0)
-
-    def skill(self, said: m.Skill) -> None:
-        self.steered_at = None
-        if said.name:
-            self.run.hold(said.name, said.speed)
-        else:
-            self.run.let_choose()
-
-    def drive(self, said: m.Drive) -> None:
-        self.run.drive(said.driver)
-
-    def set_mode(self, said: m.SetMode) -> None:
-        self.mode = said.mode
-
-    def push(self, said: m.Push) -> None:
-        self.run.push(said.impulse, said.direction)
-
-    # --- time, by message ---------------------------------------------------------------------------
     def pause(self, said: m.Pause) -> None:
         self.paused = True
 
@@ -194,79 +119,57 @@ class Room:
     def set_pace(self, said: m.Pace) -> None:
         self.pace = said.factor
 
-    def abort(self, said: m.Abort) -> None:
-        self.steered_at = None
-        self.run.abort()
-
     def reset(self, said: m.Reset) -> None:
         asked = {name: getattr(said, name) for name in ("robot", "scene", "seed", "sight", "driver")}
         given = {name: value for name, value in asked.items() if value is not None}
-        self.end_recording()
-        self.begin(replace(self.run.setup, **given))
+        setup = replace(self.run.setup, **given)
+        self.recording.end()
+        self.begin(setup)
         self.welcome()
 
-    # --- the world ----------------------------------------------------------------------------------
-    def place(self, said: m.PlaceBox) -> Answer:
-        number = self.run.place(Box(said.x, said.y, said.yaw, said.lx, said.ly, said.height))
+    # --- what is said -------------------------------------------------------------------------------
+    def welcome(self) -> None:
+        """Says all that one who comes in has to know."""
+        self.teaching.warm_up()
+        legs = self.run.robot.n
+        choices = {"drivers": list(DRIVERS), "modes": list(m.MODES), "skills": list(skill_names(legs))}
+        self.say({"say": "hello", "version": 1, "columns": columns_of(legs), "choices": choices})
         self.say_world()
-        return {"thing": number}
+        self.teaching.say_rules()
+        self.say(self.status())
 
-    def move(self, said: m.Move) -> None:
-        self.run.move(said.thing, said.x, said.y, said.yaw)
-        self.say_world()
-
-    def remove(self, said: m.Remove) -> None:
-        self.run.remove(said.thing)
-        self.say_world()
-
-    # --- recordings ---------------------------------------------------------------------------------
-    def record(self, said: m.Record) -> Answer:
-        if said.on == (self.run.recorder is not None):
-            raise WrongUse("it is recorded already" if said.on else "nothing is recorded now")
-        if said.on:
-            self.run.recorder = Recorder(
-                self.run.robot, self.run.scene.name, self.run.setup.seed, DT, self.run.scene.movers
-            )
+    def frame(self, sequence: int) -> bytes | None:
+        """What is drawn now; `None` before the first lap."""
+        lap, memories = self.run.lap, self.run.session.mind.memories
+        if lap is None:
             return None
-        return self.end_recording()
+        return frame_of([row_of(lap, memories, DRIVERS)], sequence, self.paused)
 
-    def end_recording(self) -> Answer:
-        """Keeps what was recorded so far, if anything."""
-        recorder, self.run.recorder = self.run.recorder, None
-        if recorder is None or not recorder.laps:
-            return None
-        return {"recording": self.shelf.keep(recorder.finish(), self.run.robot.name)}
+    def status(self) -> dict[str, Any]:
+        """What is so now."""
+        own = {"paused": self.paused, "pace": self.pace, **self.driving.status()}
+        return status_of(self.run, self.ticks) | own
 
-    def recordings(self, said: m.Recordings) -> Answer:
-        return {"recordings": self.shelf.listed()}
+    def say_world(self) -> None:
+        self.say(world_shown(self.run.scene, [self.run.robot], self.run.boxes))
 
-    # --- teaching -----------------------------------------------------------------------------------
-    def right(self, said: m.Right) -> Answer:
-        return self.lessons.right(said, self.run.lesson)
+    def say_scan(self) -> None:
+        """What the terrain scanner holds, and where moving things are."""
+        lap = self.run.lap
+        if lap is None or not lap.sensed.is_finite():
+            return
+        now = self.run.scene.at(self.run.time)
+        self.say(scan_shown(preview_of(self.run.robot, lap, self.run.session.mind), now))
+        if self.run.scene.movers:
+            self.say(things_shown(now, now.things))
 
-    def ok(self, said: m.Ok) -> Answer:
-        return self.learned(self.lessons.ok(self.run.lesson))
-
-    def keep(self, said: m.Keep) -> Answer:
-        return self.learned(self.lessons.keep(self.run.lesson))
-
-    def learned(self, lesson: str) -> Answer:
-        """Rules choose the skills, by what was learned just now."""
-        self.run.held = ""
-        self.say(self.lessons.rules_shown())
-        return {"lesson": lesson}
-
-    def back(self, said: m.Back) -> None:
-        self.lessons.back()
-
-    def forget(self, said: m.Forget) -> Answer:
-        return self.learned(self.lessons.forget(said.lesson, self.run.lesson))
-
-    def why(self, said: m.Why) -> Answer:
-        return self.lessons.why(said.rule, self.run.lesson)
-
-    # --- the end ------------------------------------------------------------------------------------
-    def close(self) -> None:
-        """Motors off; what was recorded is kept."""
-        self.end_recording()
-        self.run.session.close()
+    def say_seen(self) -> None:
+        """What the robot knows of the ground, where that is more than before, or it went on a little."""
+        mind = self.run.session.mind
+        x, y, _ = self.run.sensed.position_w.tolist()
+        if self.shown[0] is mind.ground and math.dist(self.shown[1], (x, y)) < WENT_ON:
+            return
+        self.shown = mind.ground, (x, y)
+        travel = mind.memories.navigator
+        learned = travel if isinstance(travel, Travel) and self.run.setup.sight == "camera" else None
+        self.say(seen_shown(mind.ground, learned, (x, y), SEES))

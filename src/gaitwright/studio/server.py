@@ -6,6 +6,7 @@ comes from, and know the token, which only the address has that `gaitwright stud
 
 import asyncio
 import hmac
+import sys
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -46,7 +47,7 @@ def application(hub: Hub, page: Path, shelf: Shelf, token: str, hosts: frozenset
     async def recording(request: Request) -> Response:
         check_token(request, token)
         try:
-            return FileResponse(shelf.path(request.path_params["name"]))
+            return FileResponse(await taken_home(shelf, request.path_params["name"]))
         except WrongUse as error:
             raise HTTPException(404, str(error)) from None
 
@@ -69,6 +70,23 @@ def application(hub: Hub, page: Path, shelf: Shelf, token: str, hosts: frozenset
         Mount("/", StaticFiles(directory=page)),
     ]
     return Guarded(Starlette(routes=routes), hosts)
+
+
+async def taken_home(shelf: Shelf, name: str) -> Path:
+    """A recording in the form that its name asks for, made of the recording itself where it is not there yet.
+
+    Another process makes it, so that frames go on. Raises `WrongUse` where there is no such recording.
+    """
+    if shelf.has(name):
+        return shelf.path(name)
+    source, out = shelf.path(f"{Path(name).stem}.npz"), shelf.place(name)
+    command = [sys.executable, "-m", "gaitwright", "replay", str(source), "--out", str(out)]
+    nobody = asyncio.subprocess.DEVNULL
+    making = await asyncio.create_subprocess_exec(*command, stdout=nobody, stderr=asyncio.subprocess.PIPE)
+    _, said = await making.communicate()
+    if making.returncode:
+        raise WrongUse(said.decode(errors="replace").strip()[-300:])
+    return shelf.path(name)
 
 
 async def converse(hub: Hub, member: Member, socket: WebSocket) -> None:

@@ -9,14 +9,14 @@ import socket
 import threading
 from collections.abc import Callable, Coroutine
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import uvicorn
 
 from gaitwright.errors import BadFile, GaitwrightError, WrongUse
 from gaitwright.studio.hub import Hub
-from gaitwright.studio.messages import MOST_BYTES
+from gaitwright.studio.messages import MOST_BYTES, Reset
 from gaitwright.studio.recordings import Shelf
 from gaitwright.studio.server import LOOPBACK, application
 from gaitwright.studio.setup import EVERYBODY, FROM, Ends, Setup, begin
@@ -45,30 +45,58 @@ class Serving:
     """Whether a book that is not there is begun."""
 
 
+class Robot:
+    """The process with the robot: begun, talked to, begun anew, ended."""
+
+    def __init__(self, what: Serving) -> None:
+        self.what, self.setup = what, what.setup
+        self.begin()
+
+    def begin(self) -> None:
+        """A run from its start."""
+        self.ends, theirs = Ends.pair()
+        book, folder = str(self.what.book), str(self.what.folder)
+        arguments = (theirs, self.setup, book, folder, self.what.begins)
+        context = multiprocessing.get_context("spawn")
+        self.process = context.Process(target=begin, args=arguments, daemon=True)
+        self.process.start()
+        for end in theirs:
+            end.close()
+
+    def again(self, said: Reset) -> None:
+        """Another run in the place of one that has ended."""
+        self.end()
+        given = {name: getattr(said, name) for name in self.setup.__slots__}
+        self.setup = replace(self.setup, **{name: of for name, of in given.items() if of is not None})
+        self.begin()
+
+    def ask(self, who: int, text: bytes) -> None:
+        """Hands on what a page asks."""
+        with suppress(OSError):  # it is gone: what it said last tells so
+            self.ends.send_bytes(FROM.pack(who) + text)
+
+    def end(self) -> None:
+        """Ends it; it keeps what was recorded."""
+        self.ends.tells.close()
+        self.process.join(SETTLES)
+        if self.process.is_alive():
+            self.process.terminate()
+
+
 def serve(what: Serving, opened: Callable[[str], None]) -> None:
     """Serves until it is interrupted. `opened` is told the address as soon as pages can be asked for.
 
     Raises `WrongUse` where the port is taken, and what the robot's process raised where it could not begin.
     """
     token = what.token or secrets.token_urlsafe(18)
-    with bound(what.address, what.port) as place:
-        port = place.getsockname()[1]
-        ours, theirs = Ends.pair()
-        context = multiprocessing.get_context("spawn")
-        arguments = (theirs, what.setup, str(what.book), str(what.folder), what.begins)
-        process = context.Process(target=begin, args=arguments, daemon=True)
-        process.start()
-        for end in theirs:
-            end.close()
-        try:
+    robot = Robot(what)
+    try:
+        with bound(what.address, what.port) as place:
             name = f"[{what.address}]" if ":" in what.address else what.address
-            opened(f"http://{name}:{port}/?token={token}")
-            hub = until_told(served(what, token, ours, place))
-        finally:
-            ours.tells.close()
-            process.join(SETTLES)  # it keeps what was recorded
-            if process.is_alive():
-                process.terminate()
+            opened(f"http://{name}:{place.getsockname()[1]}/?token={token}")
+            hub = until_told(served(what, token, robot, place))
+    finally:
+        robot.end()
     if hub is not None and hub.closed and "hello" not in hub.last:
         raise ended(hub.last["closed"])
 
@@ -82,25 +110,29 @@ def until_told(serving: Coroutine[None, None, Hub]) -> Hub | None:
         return None
 
 
-async def served(what: Serving, token: str, pipe: Ends, place: socket.socket) -> Hub:
-    """Serves on a socket, with the host at the other end of a pipe, until that ends or cannot begin."""
-
-    def ask(who: int, text: bytes) -> None:
-        with suppress(OSError):  # the host is gone: what it said last tells so
-            pipe.send_bytes(FROM.pack(who) + text)
-
-    hub = Hub(ask)
+async def served(what: Serving, token: str, robot: Robot, place: socket.socket) -> Hub:
+    """Serves on a socket, until it is told to end or the robot's process cannot begin."""
     loop = asyncio.get_running_loop()
-    hosts = LOOPBACK | {what.address}
-    app = application(hub, what.page, Shelf(what.folder), token, hosts)
-    config = uvicorn.Config(app, log_level="warning", ws_max_size=MOST_BYTES, timeout_graceful_shutdown=1)
-    server = uvicorn.Server(config)
+    began = False
 
     def told(who: int, said: bytes) -> None:
+        nonlocal began
         hub.told(who, said)
-        server.should_exit = server.should_exit or (hub.closed and "hello" not in hub.last)
+        began = began or "hello" in hub.last
+        server.should_exit = server.should_exit or (hub.closed and not began)
 
-    threading.Thread(target=listen, args=(pipe, loop, told), daemon=True).start()
+    def attend() -> None:
+        threading.Thread(target=listen, args=(robot.ends, loop, told), daemon=True).start()
+
+    def restart(said: Reset) -> None:
+        robot.again(said)
+        attend()
+
+    hub = Hub(robot.ask, restart)
+    app = application(hub, what.page, Shelf(what.folder), token, LOOPBACK | {what.address})
+    config = uvicorn.Config(app, log_level="warning", ws_max_size=MOST_BYTES, timeout_graceful_shutdown=1)
+    server = uvicorn.Server(config)
+    attend()
     await server.serve([place])
     return hub
 
@@ -113,15 +145,20 @@ def ended(said: str) -> GaitwrightError:
 
 
 def listen(pipe: Ends, loop: asyncio.AbstractEventLoop, told: Callable[[int, bytes], None]) -> None:
-    """Hands on what the host says, and that it is gone."""
-    with suppress(RuntimeError):  # the loop is closed: nobody listens any more
-        try:
-            while True:
-                said = pipe.recv_bytes()
-                (who,) = FROM.unpack_from(said)
-                loop.call_soon_threadsafe(told, who, said[FROM.size :])
-        except (EOFError, OSError):
-            loop.call_soon_threadsafe(told, EVERYBODY, CLOSED)
+    """Hands on what the host says, and that it is gone. It listens to the end, also when nobody else does any
+    more: who writes into a full pipe waits, and could not end."""
+
+    def hand_on(who: int, said: bytes) -> None:
+        with suppress(RuntimeError):  # the loop is closed
+            loop.call_soon_threadsafe(told, who, said)
+
+    try:
+        while True:
+            said = pipe.recv_bytes()
+            (who,) = FROM.unpack_from(said)
+            hand_on(who, said[FROM.size :])
+    except (EOFError, OSError):
+        hand_on(EVERYBODY, CLOSED)
 
 
 @contextmanager

@@ -5,5 +5,5 @@ export default defineConfig({
   base: "./",
   build: { outDir: "../page", emptyOutDir: true, target: "es2022", assetsInlineLimit: 0, modulePreload: false },
   oxc: { jsx: { runtime: "automatic", importSource: "preact" } },
-  server: { proxy: { "/live": { target: "ws://127.0.0.1:8765", ws: true } } },
+  server: { proxy: { "/live": { target: "ws://127.0.0.1:8737", ws: true } } },
 });

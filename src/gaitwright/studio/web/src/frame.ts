@@ -10,13 +10,13 @@ export interface Frame {
   rows: Float32Array[];
 }
 
-/** `null` for what is no frame of this version, or is shorter than it says. */
+/** `null` for what is no frame of this version, or not of rows of this width. */
 export function parseFrame(data: ArrayBuffer, width: number): Frame | null {
   if (data.byteLength < HEADER) return null;
   const view = new DataView(data);
   if (view.getUint8(0) !== 1) return null;
   const robots = view.getUint16(2, true);
-  if (data.byteLength < HEADER + robots * width * 4) return null;
+  if (data.byteLength !== HEADER + robots * width * 4) return null;
   const rows: Float32Array[] = [];
   for (let k = 0; k < robots; k++) rows.push(new Float32Array(data, HEADER + k * width * 4, width));
   return {

@@ -11,7 +11,9 @@ import { Smooth } from "./smooth";
 import type { Link, Source } from "./source";
 import { sameGround } from "./view/same";
 
+const VERSION = 1;
 const ANSWER_WITHIN = 15_000;
+const NO_ENTRY = "no connection: is this the whole address that the studio printed, and is it still open?";
 const RETRY = [500, 1000, 2000, 4000];
 
 /** The address of `/live` next to this page, with the token of its own address. */
@@ -126,6 +128,8 @@ export class Live implements Source {
     };
     socket.onclose = () => {
       this.link.value = "lost";
+      this.role.value = { ...this.role.peek(), role: "watcher" };
+      if (this.failures >= 2 && !this.hello.peek()) this.closed.value = NO_ENTRY;
       for (const answer of this.waiting.values()) answer({ done: false, because: "the connection was lost" });
       this.waiting.clear();
       setTimeout(() => this.open(), RETRY[Math.min(this.failures++, RETRY.length - 1)]);
@@ -150,6 +154,7 @@ export class Live implements Source {
       case "hello":
         this.arrange(new Layout(message.columns));
         this.hello.value = message;
+        if (message.version !== VERSION) this.closed.value = "the studio is newer than this page: load it again";
         break;
       case "world":
         this.settle(message);

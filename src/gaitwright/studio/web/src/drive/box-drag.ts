@@ -34,7 +34,7 @@ export class BoxDrag implements Drag {
     this.off.z = picked.at.z;
     this.label = new Label(place);
     chosen.value = picked.box.id;
-    engine.scenery?.boxes.light(picked.box.id);
+    engine.scenery?.boxes.hold(picked.box.id);
   }
 
   move(event: PointerEvent): void {
@@ -79,7 +79,7 @@ export class BoxDrag implements Drag {
 
   private away(): void {
     this.label.remove();
-    this.engine.scenery?.boxes.light(null);
+    this.engine.scenery?.boxes.hold(null);
   }
 
   private draw({ x, y, z, yaw }: { x: number; y: number; z: number; yaw: number }): void {

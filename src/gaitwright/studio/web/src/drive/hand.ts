@@ -1,9 +1,11 @@
 // The mouse on the views of a live studio: go, push, move and place boxes.
 
+import { effect } from "@preact/signals";
 import type { Source } from "../source";
 import type { Engine } from "../view/engine";
 import { taken } from "../view/camera-hand";
 import type { Rig } from "../view/rig";
+import { watched } from "../view/settings";
 import type { Tools } from "../view/stage";
 import { BoxDrag } from "./box-drag";
 import { aim, pick, type Picked } from "./pick";
@@ -66,6 +68,7 @@ function hold(source: Source, engine: Engine, place: HTMLElement, rig: Rig): () 
     from = null;
   };
   const click = (event: PointerEvent, picked: Picked | null) => {
+    if (picked?.kind === "robot") watched.value = picked.robot;
     if (!picked || picked.kind === "robot") return;
     if (placing.peek()) {
       ghost.place(source, picked.at);
@@ -95,6 +98,11 @@ function hold(source: Source, engine: Engine, place: HTMLElement, rig: Rig): () 
     from = null;
   };
   const leave = () => ghost.hide();
+  const light = effect(() => {
+    const id = chosen.value;
+    source.world.value; // boxes that are new do not know it
+    engine.scenery?.boxes.light(id);
+  });
   place.addEventListener("pointerdown", down);
   place.addEventListener("pointermove", move);
   place.addEventListener("pointerup", up);
@@ -110,6 +118,7 @@ function hold(source: Source, engine: Engine, place: HTMLElement, rig: Rig): () 
     place.removeEventListener("pointerleave", leave);
     place.removeEventListener("wheel", wheel);
     removeEventListener("keydown", stop);
+    light();
     ghost.dispose();
   };
 }

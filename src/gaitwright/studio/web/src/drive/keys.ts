@@ -43,11 +43,17 @@ export function listenToKeys(steering: Steering, source: Source): () => void {
   const hidden = () => {
     if (document.hidden) lose();
   };
+  // a list that was used gives the keys back
+  const used = (event: Event) => {
+    if (event.target instanceof HTMLSelectElement) event.target.blur();
+  };
+  document.addEventListener("change", used);
   addEventListener("keydown", press);
   addEventListener("keyup", lift);
   addEventListener("blur", lose);
   document.addEventListener("visibilitychange", hidden);
   return () => {
+    document.removeEventListener("change", used);
     removeEventListener("keydown", press);
     removeEventListener("keyup", lift);
     removeEventListener("blur", lose);

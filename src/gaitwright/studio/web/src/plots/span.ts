@@ -17,7 +17,7 @@ export function span(now: number, replay: boolean, last: number): [number, numbe
   const kept = held.peek();
   if (kept) return kept;
   const long = seconds.peek();
-  if (!replay) return [now - long, now];
+  if (!replay) return now < long ? [0, long] : [now - long, now];
   if (last <= long) return [0, Math.max(last, 0.1)];
   const from = Math.max(0, Math.min(now - long / 2, last - long));
   return [from, from + long];

@@ -17,8 +17,10 @@ export class Arrows {
   readonly group = new Group();
   private readonly shafts: InstancedMesh;
   private readonly heads: InstancedMesh;
+  /** Thicker for larger robots. */
+  scale = 1;
 
-  constructor(private readonly most: number, colour: ColorRepresentation, private readonly radius: number) {
+  constructor(private readonly most: number, colour: ColorRepresentation, private readonly thin: number) {
     const shaft = new CylinderGeometry(1, 1, 1, 12).rotateX(Math.PI / 2).translate(0, 0, 0.5);
     const head = new ConeGeometry(1, 1, 16).rotateX(Math.PI / 2).translate(0, 0, 0.5);
     const paint = new MeshStandardMaterial({ color: colour, roughness: 0.6, emissive: colour, emissiveIntensity: 0.35 });
@@ -29,6 +31,10 @@ export class Arrows {
       this.group.add(mesh);
     }
     for (let k = 0; k < most; k++) this.hide(k);
+  }
+
+  private get radius(): number {
+    return this.thin * this.scale;
   }
 
   /** From a place along a vector; too short a one is hidden. */

@@ -22,8 +22,9 @@ export class Boxes {
   private boxes: Box[];
   private readonly material = edged();
   private colour = new Color();
-  private held = new Color();
+  private lightColour = new Color();
   private lit: Id | null = null;
+  private held: Id | null = null;
 
   constructor(boxes: Box[]) {
     this.boxes = boxes.map((box) => ({ ...box }));
@@ -42,7 +43,7 @@ export class Boxes {
 
   /** Other boxes; one that is held stays in the hand. */
   replace(boxes: Box[]): void {
-    const held = this.lit === null ? undefined : this.find(this.lit);
+    const held = this.held === null ? undefined : this.find(this.held);
     const moving = this.boxes.filter(({ id }) => isMoving(id));
     this.boxes = [...boxes.map((box) => (held && box.id === held.id ? held : { ...box })), ...moving];
     if (this.boxes.length > this.mesh.instanceMatrix.count) {
@@ -96,6 +97,12 @@ export class Boxes {
     return top;
   }
 
+  /** Takes one into the hand: where it is, the hand says. */
+  hold(id: Id | null): void {
+    this.held = id;
+  }
+
+  /** Shows which one is chosen. */
   light(id: Id | null): void {
     if (id === this.lit) return;
     this.lit = id;
@@ -104,7 +111,7 @@ export class Boxes {
 
   dye(palette: Palette): void {
     this.colour.set(palette.box);
-    this.held.set(palette.held);
+    this.lightColour.set(palette.held);
     this.draw();
   }
 
@@ -113,7 +120,7 @@ export class Boxes {
       turn.setFromAxisAngle(UP, box.yaw);
       matrix.compose(place.set(box.x, box.y, box.z), turn, size.set(box.lx, box.ly, box.lz));
       this.mesh.setMatrixAt(k, matrix);
-      this.mesh.setColorAt(k, box.id === this.lit ? this.held : this.colour);
+      this.mesh.setColorAt(k, box.id === this.lit ? this.lightColour : this.colour);
     });
     this.mesh.count = this.boxes.length;
     this.mesh.instanceMatrix.needsUpdate = true;

@@ -7,7 +7,8 @@ import type { Theme } from "../shell/theme";
 import { Pose } from "./kinematics";
 import { Overlays } from "./overlays";
 import { PALETTES } from "./palette";
-import type { Rig } from "./rig";
+import { type Rig, spread } from "./rig";
+import { Quality } from "./quality";
 import { paint, Robots } from "./robots";
 import { Lights, Scenery } from "./scenery";
 import { sameGround } from "./same";
@@ -28,6 +29,7 @@ export class Engine {
   readonly overlays: Overlays;
   /** What tools draw. */
   readonly hands = new Group();
+  private readonly quality: Quality;
   private world: World | null = null;
   private robots: Robots | null = null;
   private readonly lights = new Lights();
@@ -41,7 +43,7 @@ export class Engine {
 
   constructor(readonly canvas: HTMLCanvasElement, readonly source: Source) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: false });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.quality = new Quality(this.renderer);
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.toneMapping = NeutralToneMapping;
@@ -112,11 +114,12 @@ export class Engine {
     this.before = now;
     this.take(now);
     const pose = this.rows.length ? this.poses[Math.min(this.watched, this.poses.length - 1)] : null;
-    if (pose) this.lights.follow(pose.base.position);
+    if (pose) this.lights.follow(pose.base.position, spread(pose.robot));
     this.overlays.update(now);
     this.fit();
     for (const view of this.views) this.drawView(view, pose ?? null, dt);
     for (const then of this.onDrawn) then();
+    this.quality.drawn(now);
   }
 
   private take(now: number): void {

@@ -6,6 +6,8 @@ import {
 
 export class Ribbon {
   readonly mesh: Mesh<BufferGeometry, MeshBasicMaterial>;
+  /** Wider for larger robots. */
+  scale = 1;
   /** What of it is behind something, faint. */
   private readonly behind: Mesh<BufferGeometry, MeshBasicMaterial> | null = null;
 
@@ -32,7 +34,7 @@ export class Ribbon {
       const [a, b] = [line[k], line[k + 1]];
       const long = Math.hypot(b[0] - a[0], b[1] - a[1]);
       if (long < 1e-6) continue;
-      const half = this.wide / 2;
+      const half = (this.scale * this.wide) / 2;
       const [ux, uy] = [((b[0] - a[0]) / long) * half, ((b[1] - a[1]) / long) * half];
       // each piece a little longer than it is, so that corners close
       const corners = [

@@ -110,7 +110,7 @@ export class Rig {
 }
 
 /** How far a robot's feet reach from its middle, as a multiple of what Go2's do (0.63 m). */
-function spread({ hip, offset }: Robot): number {
+export function spread({ hip, offset }: Robot): number {
   const reach = hip.map((at, k) => Math.hypot(...at) + Math.hypot(...offset[k][1]) + Math.hypot(...offset[k][2]));
   return Math.max(0.3, Math.max(...reach) / 0.63);
 }

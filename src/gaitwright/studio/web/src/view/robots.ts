@@ -40,7 +40,8 @@ export function paint(): Paint {
 /** The ghost of the wished pose: one translucent colour. */
 export function ghostPaint(): Paint {
   const one = new MeshStandardMaterial({
-    color: "#4dabf7", transparent: true, opacity: 0.28, depthWrite: false, roughness: 0.8,
+    color: "#4dabf7", transparent: true, opacity: 0.32, depthWrite: false, roughness: 0.8,
+    polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2,
   });
   return { shell: one, dark: one, metal: one, rubber: one, lens: one };
 }

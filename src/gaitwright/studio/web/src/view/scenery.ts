@@ -2,7 +2,7 @@
 
 import {
   BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, Group, HemisphereLight, Mesh,
-  MeshStandardMaterial, SphereGeometry, type Vector3,
+  MeshStandardMaterial, SphereGeometry, Vector3,
 } from "three";
 import { floats, integers } from "../bytes";
 import type { Mesh as Triangles, World } from "../protocol";
@@ -11,8 +11,12 @@ import { creased } from "./creased";
 import { groundMaterial } from "./ground-material";
 import { Heights } from "./heights";
 import type { Palette } from "./palette";
+import { welded } from "./weld";
 
+/** Lower ground casts no shadows [m]. */
+const CASTS = 0.12;
 const SHADOW = 4;
+const SUN = new Vector3(5, -6.5, 12);
 
 export class Lights {
   readonly group = new Group();
@@ -24,7 +28,6 @@ export class Lights {
     const { sun } = this;
     sun.castShadow = true;
     sun.shadow.mapSize.set(2048, 2048);
-    Object.assign(sun.shadow.camera, { left: -SHADOW, right: SHADOW, top: SHADOW, bottom: -SHADOW, near: 1, far: 40 });
     sun.shadow.bias = -0.0004;
     sun.shadow.normalBias = 0.012;
     sun.shadow.radius = 3;
@@ -33,11 +36,17 @@ export class Lights {
   }
 
   /** Shadows are where the robot is. */
-  follow(place: Vector3): void {
+  follow(place: Vector3, size: number): void {
+    const reach = SHADOW * Math.max(1, size);
+    const { camera } = this.sun.shadow;
+    if (camera.right !== reach) {
+      Object.assign(camera, { left: -reach, right: reach, top: reach, bottom: -reach, far: 10 * reach });
+      camera.updateProjectionMatrix();
+    }
     // in steps, so that edges of shadows do not crawl
     const step = (value: number) => Math.round(value * 4) / 4;
     this.sun.target.position.set(step(place.x), step(place.y), step(place.z));
-    this.sun.position.copy(this.sun.target.position).add({ x: 5, y: -6.5, z: 12 } as Vector3);
+    this.sun.position.copy(this.sun.target.position).addScaledVector(SUN, Math.max(1, size));
   }
 
   dye(palette: Palette): void {
@@ -59,7 +68,7 @@ export class Scenery {
     this.heights = new Heights(points, indices);
     const ground = new Mesh(surface(points, indices), this.ground.material);
     ground.receiveShadow = true;
-    ground.castShadow = this.heights.high - this.heights.low > 0.02;
+    ground.castShadow = this.heights.high - this.heights.low > CASTS;
     this.group.add(ground);
     for (const mesh of world.meshes) this.add(solid(mesh));
     for (const ball of world.spheres) {
@@ -95,13 +104,15 @@ export class Scenery {
 }
 
 function surface(points: Float32Array, indices: Uint32Array): BufferGeometry {
-  const { position, normal } = creased(points, indices);
+  const { position, normal, index } = creased(points, indices);
   const shape = new BufferGeometry();
   shape.setAttribute("position", new BufferAttribute(position, 3));
   shape.setAttribute("normal", new BufferAttribute(normal, 3));
+  shape.setIndex(new BufferAttribute(index, 1));
   return shape;
 }
 
 function solid(mesh: Triangles): BufferGeometry {
-  return surface(floats(mesh.points), integers(mesh.indices));
+  const { points, indices } = welded(floats(mesh.points), integers(mesh.indices));
+  return surface(points, indices);
 }

@@ -38,7 +38,7 @@ export function StageBar({ source, engine }: { source: Source; engine: RefObject
         ]}
       />
       <OverlayMenu replay={source.kind === "replay"} />
-      <button class="over" title="Save a picture (PNG)" data-testid="photo" onClick={() => photograph(engine.current!)}>
+      <button class="over" title="Save a picture (PNG)" data-testid="photo" onClick={() => engine.current && photograph(engine.current)}>
         <Icon name="photo" />
       </button>
       <button
@@ -46,7 +46,7 @@ export function StageBar({ source, engine }: { source: Source; engine: RefObject
         title={filming.value ? "Stop filming and save" : "Film the views (WebM)"}
         data-testid="film"
         aria-pressed={filming.value}
-        onClick={() => film(engine.current!)}
+        onClick={() => engine.current && film(engine.current)}
       >
         <Icon name={filming.value ? "stop" : "film"} />
       </button>
@@ -55,7 +55,7 @@ export function StageBar({ source, engine }: { source: Source; engine: RefObject
 }
 
 /** Overlays that need what only a live studio tells. */
-const LIVE = new Set(["seen", "reach"]);
+const LIVE = new Set(["seen", "reach", "footholds", "ghost"]);
 
 function OverlayMenu({ replay }: { replay: boolean }) {
   const [open, setOpen] = useState(false);

@@ -1,7 +1,7 @@
 // The middle of the page: one canvas, and one to four views over it.
 
 import { effect } from "@preact/signals";
-import { useLayoutEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import { theme } from "../shell/theme";
 import type { Source } from "../source";
 import { Engine } from "./engine";
@@ -19,11 +19,18 @@ export function Stage({ source, tools }: { source: Source; tools?: Tools }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const engine = useRef<Engine | null>(null);
   const rigs = useRef<Rig[]>([]);
+  const [blind, setBlind] = useState(false);
   if (!rigs.current.length) rigs.current = kinds.peek().map((kind) => new Rig(kind));
 
   // before the views, which need it
   useLayoutEffect(() => {
-    const made = new Engine(canvas.current!, source);
+    let made: Engine;
+    try {
+      made = new Engine(canvas.current!, source);
+    } catch {
+      setBlind(true); // no WebGL: everything else works
+      return;
+    }
     engine.current = made;
     const stops = [
       effect(() => made.dye(theme.value)),
@@ -57,7 +64,12 @@ export function Stage({ source, tools }: { source: Source; tools?: Tools }) {
         ))}
       </div>
       <StageBar source={source} engine={engine} />
-      {!source.world.value && <p class="waiting">waiting for the world …</p>}
+      {blind && (
+        <p class="waiting" data-testid="blind">
+          This browser shows no 3-D (WebGL is off); all else works.
+        </p>
+      )}
+      {!blind && !source.world.value && <p class="waiting">waiting for the world …</p>}
     </div>
   );
 }

@@ -23,7 +23,8 @@ export function ViewFrame(props: {
   const { index, rig, engine, source, tools } = props;
   const place = useRef<HTMLDivElement>(null);
   useEffect(() => {
-    const made = engine.current!;
+    const made = engine.current;
+    if (!made) return;
     const element = place.current!;
     const view = { rig, place: element };
     made.views.push(view);

@@ -7,10 +7,11 @@ import type { Moment, Overlay } from "./overlay";
 
 export class Footholds implements Overlay {
   readonly object = new Group();
+  readonly needs = ["footholds_w"];
   private readonly rings: Mesh[] = [];
   private readonly lines: Ribbon[] = [];
 
-  update({ layout, row, pose, height }: Moment): void {
+  update({ layout, row, pose, size, height }: Moment): void {
     const at = layout.at("footholds_w");
     const stance = layout.at("stance");
     pose.feet.forEach((foot, k) => {
@@ -24,6 +25,7 @@ export class Footholds implements Overlay {
       const radius = Math.max(pose.robot.foot_radius[k], 0.015);
       ring.position.set(x, y, z);
       ring.scale.setScalar(radius);
+      line.scale = size;
       const ground = height(foot.x, foot.y) + 0.007;
       line.set([[foot.x, foot.y, ground], [x, y, z]]);
     });

@@ -12,7 +12,8 @@ export class Forces implements Overlay {
   private readonly arrows = new Arrows(MOST_LEGS, "#e03131", 0.006);
   readonly object = this.arrows.group;
 
-  update({ layout, row, pose }: Moment): void {
+  update({ layout, row, pose, size }: Moment): void {
+    this.arrows.scale = size;
     const at = layout.at("forces_w");
     const metres = (1.3 * pose.robot.height) / (9.81 * pose.robot.mass);
     for (let k = 0; k < MOST_LEGS; k++) {

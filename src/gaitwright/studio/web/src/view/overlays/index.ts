@@ -3,6 +3,7 @@
 import { Group } from "three";
 import type { World } from "../../protocol";
 import type { Engine } from "../engine";
+import { spread } from "../rig";
 import { type OverlayId, shown } from "../settings";
 import { Footholds } from "./footholds";
 import { Forces } from "./forces";
@@ -44,13 +45,13 @@ export class Overlays {
     const pose = engine.poses[engine.watched];
     this.group.visible = Boolean(layout && row && pose);
     if (!layout || !row || !pose) return;
-    const moment: Moment = {
-      source: engine.source, layout, row, pose, height: (x, y) => engine.height(x, y),
-    };
+    const height = (x: number, y: number) => engine.height(x, y);
+    const moment: Moment = { source: engine.source, layout, row, pose, size: spread(pose.robot), height };
     const on = shown.peek();
     for (const [id, overlay] of Object.entries(this.all) as [OverlayId, Overlay][]) {
-      overlay.object.visible = on[id] ?? false;
-      if (on[id]) overlay.update(moment);
+      const there = overlay.needs?.every((name) => layout.has(name)) ?? true;
+      overlay.object.visible = there && (on[id] ?? false);
+      if (overlay.object.visible) overlay.update(moment);
     }
   }
 }

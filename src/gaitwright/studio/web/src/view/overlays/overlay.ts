@@ -12,12 +12,16 @@ export interface Moment {
   layout: Layout;
   row: Float32Array;
   pose: Pose;
+  /** 1 for a robot as large as Go2: lines are thicker for larger ones. */
+  size: number;
   /** Height of what stands at a place. */
   height: (x: number, y: number) => number;
 }
 
 export interface Overlay {
   readonly object: Object3D;
+  /** Columns without which there is nothing to show. */
+  readonly needs?: readonly string[];
   arrange?(world: World): void;
   update(moment: Moment): void;
 }

@@ -10,13 +10,14 @@ export class Reach implements Overlay {
   private readonly lines: Ribbon[] = [];
   private drawn: Scan | null = null;
 
-  update({ source }: Moment): void {
+  update({ source, size }: Moment): void {
     const scan = source.scan.peek();
     if (scan === this.drawn) return;
     this.drawn = scan;
     const reach = scan?.reach ?? [];
     reach.forEach((outline, k) => {
       this.lines[k] ??= this.line();
+      this.lines[k].scale = size;
       this.lines[k].set(outline.map(([x, y, z]) => [x, y, z + 0.005]), true);
     });
     for (let k = reach.length; k < this.lines.length; k++) this.lines[k].mesh.visible = false;

@@ -7,19 +7,19 @@ import type { Moment, Overlay } from "./overlay";
 
 const PIECE = 0.1;
 const LIFT = 0.012;
-const COLOUR = "#4263eb";
+const COLOUR = "#4c6ef5";
 
 export class RouteLine implements Overlay {
   readonly object = new Group();
-  private readonly line = new Ribbon(COLOUR, 0.022, 0.85);
+  private readonly line = new Ribbon(COLOUR, 0.018);
   private readonly goal = new Group();
   private drawn: Status | null = null;
 
   constructor() {
     const paint = new MeshBasicMaterial({ color: COLOUR, side: DoubleSide, toneMapped: false });
-    const pole = new Mesh(new CylinderGeometry(0.006, 0.006, 0.34, 10).rotateX(Math.PI / 2).translate(0, 0, 0.17), paint);
-    const ball = new Mesh(new SphereGeometry(0.035, 20, 14).translate(0, 0, 0.36), paint);
-    const ring = new Mesh(new RingGeometry(0.1, 0.125, 40).translate(0, 0, LIFT), paint);
+    const pole = new Mesh(new CylinderGeometry(0.004, 0.004, 0.34, 10).rotateX(Math.PI / 2).translate(0, 0, 0.17), paint);
+    const ball = new Mesh(new SphereGeometry(0.026, 20, 14).translate(0, 0, 0.36), paint);
+    const ring = new Mesh(new RingGeometry(0.09, 0.105, 48).translate(0, 0, LIFT), paint);
     this.goal.add(pole, ball, ring);
     this.object.add(this.line.mesh, this.goal);
   }
@@ -28,10 +28,12 @@ export class RouteLine implements Overlay {
     this.drawn = null;
   }
 
-  update({ source, pose, height }: Moment): void {
+  update({ source, pose, size, height }: Moment): void {
     const status = source.status.peek();
     if (status === this.drawn) return;
     this.drawn = status;
+    this.line.scale = size;
+    this.goal.scale.setScalar(size);
     const { x, y } = pose.base.position;
     const corners = status?.route.length ? [[x, y], ...status.route] : [];
     this.line.set(laid(corners, height));

@@ -25,6 +25,8 @@ export class Support implements Overlay {
 
   update(moment: Moment): void {
     const scan = moment.source.scan.peek();
+    this.now.scale = this.next.scale = moment.size;
+    this.centre.scale.setScalar(moment.size);
     if (moment.source.kind === "replay") return this.fromFeet(moment);
     if (scan === this.drawn) return;
     this.drawn = scan;

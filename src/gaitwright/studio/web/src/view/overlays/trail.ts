@@ -16,11 +16,12 @@ export class Trail implements Overlay {
     this.drawn = -1;
   }
 
-  update({ source, layout, height }: Moment): void {
+  update({ source, layout, size, height }: Moment): void {
     const history = source.history(watched.peek());
     const now = source.now();
     if (!history || Math.abs(now - this.drawn) < EVERY) return;
     this.drawn = now;
+    this.line.scale = size;
     const last = Math.min(history.count - 1, history.from(now));
     const stride = Math.max(1, Math.ceil(last / POINTS));
     const at = layout.at("position_w");

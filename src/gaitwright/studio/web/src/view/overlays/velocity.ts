@@ -17,7 +17,8 @@ export class VelocityArrow implements Overlay {
     this.object.add(this.is.group, this.asked.group);
   }
 
-  update({ layout, row, pose }: Moment): void {
+  update({ layout, row, pose, size }: Moment): void {
+    this.is.scale = this.asked.scale = size;
     const { position } = pose.base;
     const [v, c] = [layout.at("velocity_w"), layout.at("command")];
     from.set(position.x, position.y, position.z + 0.55 * pose.robot.height);

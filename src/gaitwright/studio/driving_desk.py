@@ -1,0 +1,109 @@
+"""Where a person says where to go, by which skill, and who drives; a composed motion is played here too."""
+
+from collections.abc import Callable
+from time import monotonic
+from typing import Any
+
+from gaitwright.errors import WrongUse
+from gaitwright.studio import messages as m
+from gaitwright.studio.composing import Score
+from gaitwright.studio.live_run import LiveRun
+from gaitwright.studio.teaching_desk import TeachingDesk
+
+WATCHDOG = 0.3
+"""A steering person who was not heard for so long has let go [s]."""
+
+
+class DrivingDesk:
+    """Who steers, when she was heard last, and what she composes. `teaching` hears what she shows."""
+
+    run: LiveRun
+
+    def __init__(self, teaching: TeachingDesk, say: Callable[[dict[str, Any]], None]) -> None:
+        self.teaching, self.say = teaching, say
+        self.mode: m.Mode = "plan"
+        self.does: dict[type[m.Message], Callable[[Any], dict[str, Any] | None]] = {
+            m.Go: self.go, m.Steer: self.steer, m.Stand: self.stand, m.Skill: self.skill,
+            m.Drive: self.drive, m.SetMode: self.set_mode, m.Abort: self.abort, m.Push: self.push,
+            m.Compose: self.compose, m.Play: self.play,
+        }  # fmt: skip
+
+    def attend(self, run: LiveRun) -> None:
+        """From now on it is about this run."""
+        self.run, self.score = run, Score()
+        self.steered_at: float | None = None
+        """When the person who steers was heard last; `None`: nobody steers."""
+
+    def status(self) -> dict[str, Any]:
+        """What is so now."""
+        composing, playing = self.score.begun is not None, bool(self.score.playing)
+        words = len(self.score.words)
+        return {"mode": self.mode, "composing": composing, "playing": playing, "composed": words}
+
+    # --- time ---------------------------------------------------------------------------------------
+    def watch_over(self) -> None:
+        """Stops a robot whose steering person is gone."""
+        is_heard = self.steered_at is None or monotonic() - self.steered_at <= WATCHDOG
+        if not is_heard and not self.score.playing:
+            self.stand(m.Stand())
+
+    def after(self) -> None:
+        """To be called after every lap: does what a composed motion asks for now; what cannot be done ends
+        it."""
+        if not self.score.playing:
+            return
+        for message in self.score.due(self.run.time):
+            try:
+                self.does[type(message)](message)
+            except WrongUse as error:
+                self.score.playing = []
+                self.say({"say": "remark", "sentence": f"the motion ends here: {error}"})
+                return
+        if not self.score.playing:
+            self.say({"say": "remark", "sentence": "the motion was played"})
+
+    # --- what is asked ------------------------------------------------------------------------------
+    def go(self, said: m.Go) -> None:
+        self.steered_at = None
+        self.run.go(said.x, said.y, said.then)
+
+    def steer(self, said: m.Steer) -> None:
+        self.run.steer(said.forward, said.left, said.turn)
+        self.steered_at = monotonic()
+
+    def stand(self, said: m.Stand) -> None:
+        self.steered_at = None
+        self.run.steer(0.0, 0.0, 0.0)
+
+    def skill(self, said: m.Skill) -> None:
+        self.steered_at = None
+        if not said.name:
+            self.run.let_choose()
+            return
+        # Of an apprentice: what she does here may be right here. She says whether.
+        proposed = self.teaching.proposed(said.name) if self.mode == "apprentice" else None
+        self.run.hold(said.name, said.speed)
+        if proposed is not None:
+            self.say({"say": "tried", "proposed": True, **proposed})
+
+    def drive(self, said: m.Drive) -> None:
+        self.run.drive(said.driver)
+
+    def set_mode(self, said: m.SetMode) -> None:
+        self.mode = said.mode
+
+    def abort(self, said: m.Abort) -> None:
+        self.steered_at, self.score.playing = None, []
+        self.run.abort()
+
+    def push(self, said: m.Push) -> None:
+        self.run.push(said.impulse, said.direction)
+
+    def compose(self, said: m.Compose) -> dict[str, Any] | None:
+        if said.on:
+            self.score.begin(self.run.time)
+            return None
+        return {"words": self.score.end()}
+
+    def play(self, said: m.Play) -> dict[str, Any]:
+        return {"seconds": self.score.play(self.run.time)}

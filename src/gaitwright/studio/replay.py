@@ -1,0 +1,170 @@
+"""Recording → one HTML page with all in it, which opens by a double click and can be sent to a colleague.
+
+The page is the studio's own, built as one file; a recording is put into it as JSON, its rows as in `frames`,
+but for what no recording tells (where feet should be, and where they are to land).
+"""
+
+import base64
+import json
+import math
+import zlib
+from collections.abc import Iterator
+from dataclasses import asdict, replace
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from jaxtyping import Float
+
+from gaitwright.errors import WrongUse
+from gaitwright.files import fitting, whole
+from gaitwright.ground.scene import Scene
+from gaitwright.ground.terrain import Flat
+from gaitwright.numerics.packing import Layout
+from gaitwright.record.metrics import stretches
+from gaitwright.record.moment import call_at
+from gaitwright.record.recording import Recording
+from gaitwright.record.scene_of import scene_of
+from gaitwright.skills.vocabulary import RULE_IN_USE
+from gaitwright.studio.shown import things_shown, world_shown
+
+RATE = 50.0
+"""Rows per second, and fewer of a trip that is so long that there would be more than `MOST_ROWS`."""
+MOST_ROWS = 60_000
+MOVES = 10.0
+"""So many times a second it is said where moving things are."""
+TEMPLATE, PLACE = "replay.html", '<script type="application/json" id="recording">'
+
+
+class ReplayRow(NamedTuple):
+    """One moment; names and units as in `frames.FrameRow`."""
+
+    time: float
+    position_w: Float[np.ndarray, "3"]
+    orientation_wb: Float[np.ndarray, "4"]
+    velocity_w: Float[np.ndarray, "3"]
+    angular_velocity_b: Float[np.ndarray, "3"]
+    q: Float[np.ndarray, "legs 3"]
+    tau: Float[np.ndarray, "legs 3"]
+    load: Float[np.ndarray, "legs"]
+    stance: Float[np.ndarray, "legs"]
+    forces_w: Float[np.ndarray, "legs 3"]
+    command: Float[np.ndarray, "3"]
+    reference_position_w: Float[np.ndarray, "3"]
+    phase: float
+    driver: float
+    power: float
+
+
+LAYOUT = Layout.of(ReplayRow)
+OTHERWISE = {"reference_position_w": "target_w"}
+"""What a recording calls otherwise."""
+
+
+def write_replay(recording: Recording, path: Path, page: Path, scene: Scene | None = None) -> Path:
+    """Writes a page, complete or not at all. `page`: the folder of the built studio; `scene`: where it was
+    recorded, else the one that it names, or a plane where that is not to be had.
+
+    Raises `WrongUse` where the studio was not built, or the recording has no tick.
+    """
+    text = replay_page(recording, page, scene)
+    with fitting(path), whole(path) as draft:
+        draft.write_text(text, encoding="utf-8")
+    return path
+
+
+def replay_page(recording: Recording, page: Path, scene: Scene | None = None) -> str:
+    """The text of a page."""
+    template = page / TEMPLATE
+    if not template.is_file():
+        raise WrongUse("the studio's page is not built: `gaitwright studio` builds it")
+    before, mark, after = template.read_text(encoding="utf-8").partition(PLACE)
+    assert mark, "the built page has a place for a recording"
+    data = json.dumps(replay_data(recording.sound(), scene), separators=(",", ":"), allow_nan=False)
+    return before + mark + data.replace("</", "<\\/") + after
+
+
+def replay_data(recording: Recording, scene: Scene | None = None) -> dict[str, Any]:
+    """All that a page shows of a recording, as plain JSON values."""
+    if not len(recording):
+        raise WrongUse("this recording has no moment to show")
+    ground = scene_shown_of(recording) if scene is None else scene
+    step = max(1, round(1.0 / (RATE * recording.dt)), math.ceil(len(recording) / MOST_ROWS))
+    rows = rows_of(recording, step)
+    return {
+        "title": f"{recording.robot.name} in {recording.scene or 'a scene'}: {recording.stopped_because}",
+        "world": world_shown(ground, [recording.robot], dict(enumerate(ground.boxes))),
+        "columns": [
+            {"name": name, "size": at.stop - at.start}
+            for name, at in LAYOUT.slices(recording.robot.n).items()
+        ],
+        "drivers": list(recording.drivers),
+        "rate": 1.0 / (step * recording.dt),
+        "count": len(rows),
+        "rows": packed(rows),
+        "events": list(events_of(recording)),
+        "report": finite(asdict(recording.report())),
+        "movers": moves_of(recording, ground),
+    }
+
+
+def scene_shown_of(recording: Recording) -> Scene:
+    """The scene that a recording names, with what moved in it; a plane where it is not to be had."""
+    scene = scene_of(recording)
+    known = Scene(recording.scene, Flat()) if isinstance(scene, str) else scene
+    return replace(known, movers=recording.movers)
+
+
+def rows_of(recording: Recording, step: int) -> Float[np.ndarray, "moments width"]:
+    """Every `step`-th tick."""
+    where = LAYOUT.slices(recording.robot.n)
+    rows = np.empty((len(range(0, len(recording), step)), LAYOUT.size(recording.robot.n)), np.float32)
+    for name, place in where.items():
+        if name != "power":
+            column = recording[OTHERWISE.get(name, name)][::step]
+            rows[:, place] = column.reshape(len(rows), -1)
+    rows[:, where["power"]] = np.abs(recording["tau"] * recording["qd"])[::step].sum(axis=1)[:, None]
+    return rows
+
+
+def packed(rows: np.ndarray) -> str:
+    """Rows as base64 of deflated 32-bit numbers, little-endian."""
+    press = zlib.compressobj(9, zlib.DEFLATED, -zlib.MAX_WBITS)
+    pressed = press.compress(np.ascontiguousarray(rows, "<f4").tobytes()) + press.flush()
+    return base64.b64encode(pressed).decode()
+
+
+def events_of(recording: Recording) -> Iterator[dict[str, Any]]:
+    """When skill, driver or rule changed, and to what."""
+    several = np.stack([recording[name] for name in ("skill", "driver", "memory")], axis=1)
+    changes = np.nan_to_num(several, nan=-1.0)
+    _, numbers = np.unique(changes, axis=0, return_inverse=True)
+    before = None
+    for start, _ in stretches(numbers.ravel()):
+        call = call_at(recording, start)
+        rule = str(call.memory.get(RULE_IN_USE, ""))
+        if (call.skill, call.driver, rule) == before:
+            continue
+        before = call.skill, call.driver, rule
+        because = f"rule {rule}" if rule else ""
+        said = {"skill": call.skill, "driver": call.driver, "because": because, "rule": rule}
+        yield {"time": float(recording.at("time", start)), **said}
+
+
+def moves_of(recording: Recording, scene: Scene) -> list[dict[str, Any]]:
+    """Where moving things were, some times a second."""
+    if not scene.movers:
+        return []
+    step = max(1, round(1.0 / (MOVES * recording.dt)), math.ceil(len(recording) / MOST_ROWS))
+    times = recording["time"][::step].tolist()
+    there = ((time, scene.at(time)) for time in times)
+    return [{"time": time, "things": things_shown(now, now.things)["things"]} for time, now in there]
+
+
+def finite(value: Any) -> Any:
+    """A value of JSON whose numbers are all numbers; `None` for those that are none."""
+    if isinstance(value, dict):
+        return {name: finite(one) for name, one in value.items()}
+    if isinstance(value, list | tuple):
+        return [finite(one) for one in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
