@@ -5,7 +5,7 @@ import { Blend } from "../blend";
 import { fromBase64 } from "../bytes";
 import { History } from "../history";
 import { Layout } from "../layout";
-import type { Answer, Embedded, Hello, ReplayEvent, Role, Status, World } from "../protocol";
+import type { Answer, Embedded, Hello, Moved, ReplayEvent, Role, Status, World } from "../protocol";
 import type { Link, Source } from "../source";
 import type { Clock } from "./clock";
 
@@ -20,7 +20,7 @@ export class Player implements Source {
   readonly layout: ReadonlySignal<Layout>;
   readonly role = signal<Role>({ say: "role", role: "watcher", watchers: 0, has_driver: false });
   readonly closed = signal("");
-  readonly moved = nothing;
+  readonly moved: ReadonlySignal<Moved | null>;
   readonly scan = nothing;
   readonly seen = nothing;
   readonly rules = nothing;
@@ -33,7 +33,6 @@ export class Player implements Source {
   readonly count = 1;
   /** The event that holds now. */
   readonly event: ReadonlySignal<ReplayEvent | null>;
-  readonly begins: number;
   private readonly blend: Blend;
   private readonly rows: History;
 
@@ -46,20 +45,23 @@ export class Player implements Source {
     const count = Math.min(recording.count, Math.floor(data.length / layout.width));
     this.rows = new History(layout.width, layout.at("time"), Infinity, Math.max(1, count));
     for (let k = 0; k < count; k++) this.rows.add(data.subarray(k * layout.width, (k + 1) * layout.width));
-    this.begins = this.rows.count ? this.rows.time(0) : 0;
     this.hello = signal(helloOf(recording));
     this.beat = clock.time;
     clock.duration.value = Math.max(clock.duration.peek(), this.rows.last());
     const place = computed(() => lastBefore(recording.events, clock.time.value));
     this.event = computed(() => recording.events[place.value] ?? null);
+    const movers = recording.movers ?? [];
+    const moment = computed(() => (movers.length ? lastBefore(movers, clock.time.value) : -1));
+    this.moved = computed(() => (moment.value < 0 ? null : { say: "moved", things: movers[moment.value].things }));
     this.status = computed(() => statusOf(this.event.value, recording, drivers));
   }
 
   /** Unpacks a recording. */
-  static async of(recording: Embedded, clock: Clock): Promise<Player> {
-    const packed = new Blob([fromBase64(recording.rows)]).stream();
+  static async of(found: Embedded, clock: Clock): Promise<Player> {
+    const packed = new Blob([fromBase64(found.rows)]).stream();
     const whole = await new Response(packed.pipeThrough(new DecompressionStream("deflate-raw"))).arrayBuffer();
-    return new Player(recording, new Float32Array(whole, 0, whole.byteLength >> 2), clock);
+    const data = new Float32Array(whole, 0, whole.byteLength >> 2);
+    return new Player(fromZero(found, data), data, clock);
   }
 
   get duration(): number {
@@ -100,10 +102,26 @@ export class Player implements Source {
   }
 }
 
-function lastBefore(events: ReplayEvent[], time: number): number {
-  let at = 0;
-  while (at + 1 < events.length && events[at + 1].time <= time + 1e-6) at++;
-  return at;
+/** The recording with its own beginning as time 0, its rows too: of two, both begin at once. */
+function fromZero(recording: Embedded, data: Float32Array): Embedded {
+  const { columns, events, movers } = recording;
+  const layout = new Layout(columns);
+  const at = layout.at("time");
+  const begins = data[at] || 0;
+  for (let k = at; k < data.length; k += layout.width) data[k] -= begins;
+  const shift = <T extends { time: number }>(one: T): T => ({ ...one, time: Math.max(0, one.time - begins) });
+  return { ...recording, events: events.map(shift), movers: movers?.map(shift) };
+}
+
+/** Place of the last of some that are in order of time, not after a time; the first where all are later. */
+function lastBefore(all: readonly { time: number }[], time: number): number {
+  let [low, high] = [0, all.length];
+  while (low + 1 < high) {
+    const middle = (low + high) >> 1;
+    if (all[middle].time <= time + 1e-6) low = middle;
+    else high = middle;
+  }
+  return low;
 }
 
 function helloOf(recording: Embedded): Hello {

@@ -55,7 +55,7 @@ export function StageBar({ source, engine }: { source: Source; engine: RefObject
 }
 
 /** Overlays that need what only a live studio tells. */
-const LIVE = new Set(["seen", "reach"]);
+const LIVE = new Set(["seen", "reach", "footholds", "ghost"]);
 
 function OverlayMenu({ replay }: { replay: boolean }) {
   const [open, setOpen] = useState(false);

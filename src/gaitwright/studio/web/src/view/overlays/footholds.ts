@@ -7,6 +7,7 @@ import type { Moment, Overlay } from "./overlay";
 
 export class Footholds implements Overlay {
   readonly object = new Group();
+  readonly needs = ["footholds_w"];
   private readonly rings: Mesh[] = [];
   private readonly lines: Ribbon[] = [];
 

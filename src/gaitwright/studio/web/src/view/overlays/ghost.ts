@@ -7,6 +7,7 @@ import type { Moment, Overlay } from "./overlay";
 
 export class Ghost implements Overlay {
   readonly object = new Group();
+  readonly needs = ["q_reference", "reference_orientation_wb"];
   private robots: Robots | null = null;
   private pose: Pose | null = null;
   private readonly paint = ghostPaint();

@@ -49,8 +49,9 @@ export class Overlays {
     const moment: Moment = { source: engine.source, layout, row, pose, size: spread(pose.robot), height };
     const on = shown.peek();
     for (const [id, overlay] of Object.entries(this.all) as [OverlayId, Overlay][]) {
-      overlay.object.visible = on[id] ?? false;
-      if (on[id]) overlay.update(moment);
+      const there = overlay.needs?.every((name) => layout.has(name)) ?? true;
+      overlay.object.visible = there && (on[id] ?? false);
+      if (overlay.object.visible) overlay.update(moment);
     }
   }
 }

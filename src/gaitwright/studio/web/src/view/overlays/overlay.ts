@@ -20,6 +20,8 @@ export interface Moment {
 
 export interface Overlay {
   readonly object: Object3D;
+  /** Columns without which there is nothing to show. */
+  readonly needs?: readonly string[];
   arrange?(world: World): void;
   update(moment: Moment): void;
 }
