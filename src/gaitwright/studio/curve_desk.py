@@ -24,7 +24,7 @@ class CurveDesk:
         self.curves: Curves | None = None
         self.edits = 0
         """Counts what changed the curves, so that a page knows when to look again."""
-        self.told: dict[str, Any] = {}
+        self.told: tuple[int, bool] | None = None
         self.does: dict[type[m.Message], Callable[[Any], dict[str, Any] | None]] = {
             m.Curve: self.show, m.Edit: self.edit, m.Undo: self.undo, m.Redo: self.redo, m.Save: self.save,
         }  # fmt: skip
@@ -55,7 +55,12 @@ class CurveDesk:
         """Whether an edit is taken, why not, what was seen of it, and the curve as it then is."""
         curves, session = self.at_work()
         leg = self.leg(said.leg)
-        answer = curves.edit(said.kind, said.skill, leg, said.points, said.mirror, session)
+        if said.obstacle and said.kind != "cycle":
+            raise WrongUse("how a foot gets over an obstacle is said by its path: edit the leg cycle")
+        if said.obstacle:
+            answer = curves.edit_ahead(said.skill, leg, said.points, session)
+        else:
+            answer = curves.edit(said.kind, said.skill, leg, said.points, said.mirror, session)
         if answer["taken"]:
             self.changed()
         return answer | {"curve": curves.show(said.kind, said.skill, leg, session)}
@@ -93,7 +98,9 @@ class CurveDesk:
 
     def tell(self) -> None:
         """Says how things are, where that is not what was said last."""
-        now = {"edits": self.edits, "pending": self.at_work()[0].change.is_pending}
+        curves, _ = self.at_work()
+        now = self.edits, curves.change.is_pending
         if now != self.told:
             self.told = now
-            self.say({"say": "curve", **now})
+            edits, pending = now
+            self.say({"say": "curve", "edits": edits, "pending": pending, "operators": curves.operators})

@@ -1,15 +1,30 @@
 """A foot's path edited where an obstacle is ahead of its leg: a terrain operator (thesis 5.4.1; row L4)."""
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from gaitwright.errors import WrongUse
+from gaitwright.gait.kinds import KINDS
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle
+from gaitwright.gait.obstacle import NOTHING, ahead_of
 from gaitwright.gait.operators import Operator
+from gaitwright.ground.elevation import height_at
 from gaitwright.learning.operator_lessons import RAISED, Edit, learned_from
+from gaitwright.numerics.geometry import heading, rotation
+from gaitwright.perception.elevation_map import lowest_points
+from gaitwright.session import Session
 from gaitwright.studio.curve_checks import Refusal, Rows
 from gaitwright.studio.curve_cycle import CycleCurve
+from gaitwright.studio.curve_walk import Walk
+
+FAR = 2.5
+"""So far ahead is looked for an obstacle [body lengths], …"""
+LOOKS = 0.2
+"""… from one of a foot's ways to the next, in strides, …"""
+SHORTEST = 0.5
+"""… which are at least so long [body heights]."""
 
 
 @dataclass(frozen=True)
@@ -22,6 +37,26 @@ class Obstacle:
     """[m]; of a slope the tangent of its angle."""
     landing: float = 0.0
     """How much farther the foot is to land [m]."""
+
+
+def next_ahead(walk: Walk, leg: int, session: Session) -> Obstacle | None:
+    """The next thing on the way of a leg that its foot would have to get over, as the gait tells such things
+    apart, within `FAR` body lengths of where the foot is; `None`: there is none."""
+    sensed, ground = session.measured, session.mind.ground
+    robot = walk.robot
+    foot = lowest_points(robot, sensed)[leg] + [0.0, 0.0, robot.foot_radius[leg]]
+    yaw = heading(rotation(sensed.orientation_wb))
+    way = np.array([math.cos(yaw), math.sin(yaw)])
+    stride = max(walk.stride, SHORTEST * robot.height)
+    for far in np.arange(0.0, FAR * robot.body_length, LOOKS * stride):
+        origin = foot + np.append(far * way, 0.0)
+        known = float(height_at(ground.footholds, *origin[:2]))
+        origin[2] = known + robot.foot_radius[leg]
+        to = origin[:2] + stride * way
+        kind, size = ahead_of(ground.footholds, origin, *to, robot.foot_radius[leg], robot.height)
+        if kind != NOTHING:
+            return Obstacle(KINDS[kind], float(size))
+    return None
 
 
 def operator_from(curve: CycleCurve, points: Rows, obstacle: Obstacle, who: str) -> Operator | Refusal:

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from gaitwright.errors import unknown
+from gaitwright.errors import WrongUse, unknown
 from gaitwright.gait.coordinator import Coordinator
 from gaitwright.gait.leg_cycles.files import cycle_of
 from gaitwright.gait.operators import Operator
@@ -26,7 +26,7 @@ from gaitwright.studio.curve_history import History, Snapshot, with_one
 from gaitwright.studio.curve_keeping import Keeper
 from gaitwright.studio.curve_measured import LastLaps, angles_of, path_of
 from gaitwright.studio.curve_measured import torques_of as torques_measured
-from gaitwright.studio.curve_obstacle import Obstacle, operator_from
+from gaitwright.studio.curve_obstacle import Obstacle, next_ahead, operator_from
 from gaitwright.studio.curve_preview import Wish, previewed
 from gaitwright.studio.curve_torque import TorqueCurve
 from gaitwright.studio.curve_walk import Walk
@@ -70,6 +70,7 @@ class Curves:
         curve = self.curve(kind, skill, leg, session, self.history.now)
         walk = curve.walk
         laps = self.laps.cycle(walk.skill) if self.laps is not None else []
+        ahead = next_ahead(walk, curve.leg, session)
         return {
             "kind": kind,
             "skill": walk.skill,
@@ -87,6 +88,7 @@ class Curves:
             "redo": bool(self.history.behind),
             "edited": self.is_edited(curve),
             "pending": self.change.is_pending,
+            "ahead": None if ahead is None else {"kind": ahead.kind, "size": ahead.size},
         }
 
     def curve(self, kind: str, skill: str, leg: str, session: Session, snapshot: Snapshot) -> Curve:
@@ -127,6 +129,30 @@ class Curves:
             if not isinstance(found, Refusal):
                 found = replace(now, cycles=with_one(now.cycles, curve.walk.skill, found))
         return self.taken(curve, found, session)
+
+    def edit_ahead(self, skill: str, leg: str, points: Rows, session: Session) -> Message:
+        """`edit_at` what is ahead of a leg now. Raises `WrongUse` where nothing is."""
+        walk = Walk.of(self.robot, skill, session)
+        obstacle = next_ahead(walk, walk.leg(leg), session)
+        if obstacle is None:
+            raise WrongUse(
+                f"nothing is ahead of leg {leg} that its foot has to get over: bring it to something"
+            )
+        return self.edit_at(obstacle, skill, leg, points, session)
+
+    @property
+    def operators(self) -> list[Message]:
+        """What was learned at obstacles, in the order in which it is tried."""
+        return [
+            {
+                "name": one.name,
+                "kinds": list(one.kinds),
+                "largest": one.largest,
+                "strategy": one.strategy,
+                "taught": one.taught,
+            }
+            for one in self.history.now.operators
+        ]
 
     def edit_at(self, obstacle: Obstacle, skill: str, leg: str, points: Rows, session: Session) -> Message:
         """The path of a foot with an obstacle ahead of its leg becomes a terrain operator, tried before all

@@ -232,13 +232,15 @@ class Curve(Anyone):
 
 
 class Edit(Message):
-    """Other points for a curve: seen in physics, and taken on at the next cycle, or refused."""
+    """Other points for a curve: seen in physics, and taken on at the next cycle, or refused. With `obstacle`
+    a leg cycle is how its foot gets over what is ahead of it: a rule for every leg and skill."""
 
     kind: Kind
     skill: Name
     leg: Annotated[int, Meta(ge=0, le=16)]
     points: Points
     mirror: bool = True
+    obstacle: bool = False
 
 
 class Undo(Message):

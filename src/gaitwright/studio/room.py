@@ -1,8 +1,8 @@
 """What a person asks for → the run, and what is told of it: the studio without a page, a clock or a network.
 
 A `Room` hears messages and says things; whoever runs it (`host`) gives it time. So a test can talk to it
-directly. What is asked is done at desks, each for one kind of thing; a desk says what it `does`, and attends to
-the run that is under way.
+directly. What is asked is done at desks, one for each kind of thing; a desk says what it `does`, and attends
+to the run that is under way.
 """
 
 import math
