@@ -13,6 +13,8 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from gaitwright.errors import WrongUse
+from gaitwright.ground.scenes_list import scene_names
+from gaitwright.model.catalogue import ROBOTS
 from gaitwright.navigation.travel import Travel
 from gaitwright.record.previews import preview_of
 from gaitwright.signals import GroundMap
@@ -132,7 +134,13 @@ class Room:
         """Says all that one who comes in has to know."""
         self.teaching.warm_up()
         legs = self.run.robot.n
-        choices = {"drivers": list(DRIVERS), "modes": list(m.MODES), "skills": list(skill_names(legs))}
+        choices = {
+            "robots": list(ROBOTS),
+            "scenes": [{"name": name, "about": about} for name, about in scene_names().items()],
+            "skills": list(skill_names(legs)),
+            "drivers": list(DRIVERS),
+            "modes": list(m.MODES),
+        }
         self.say({"say": "hello", "version": 1, "columns": columns_of(legs), "choices": choices})
         self.say_world()
         self.teaching.say_rules()

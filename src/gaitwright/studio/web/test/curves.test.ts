@@ -13,7 +13,7 @@ const cycle: Curve = {
     columns: ["share", "forward", "height"], units: ["", "strides", "body heights"], lower: [0, -0.5, 0], upper: [1, 0.5, 1],
     fewest: 4, most: 64, nearest: 0.01, fixed: [1, 3], periodic: false, drift: 0.4, stride: 0.2, height: 0.3,
   },
-  measured: [], undo: false, redo: false, edited: false, pending: false,
+  measured: [], undo: false, redo: false, edited: false, pending: false, ahead: null,
 };
 
 test("a place is the same after it went to pixels and back", () => {

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { addressOf, duration, readName, size } from "../src/recordings/names";
+import { addressOf, duration, once, readName, size, stem } from "../src/recordings/names";
 
 test("a recording's name tells when and of what", () => {
   expect(readName("2026-01-02_03-04-05_go2_2.npz")).toEqual({
@@ -16,4 +16,10 @@ test("sizes and times are as people say them", () => {
 test("it is fetched with the token of the page's address and nothing else of it", () => {
   expect(addressOf("a b.npz", "?token=x%26y&z=1")).toBe("recordings/a%20b.npz?token=x%26y");
   expect(addressOf("a.npz", "")).toBe("recordings/a.npz");
+});
+
+test("several files of one recording are one", () => {
+  const files = ["b.html", "b.npz", "a.npz", "c.mcap"].map((name) => ({ name }));
+  expect(once(files).map(({ name }) => name)).toEqual(["b.npz", "a.npz", "c.mcap"]);
+  expect(stem("2026-01-02_03-04-05_go2.npz")).toBe("2026-01-02_03-04-05_go2");
 });

@@ -14,6 +14,9 @@ export const leg = signal(0);
 /** Whether an edit counts for the other legs, too. */
 export const mirror = remembered("curve.mirror", true);
 
+/** Whether an edit is how the foot gets over what is ahead of it, and not how it goes at all times. */
+export const obstacle = signal(false);
+
 export const curve = signal<Curve | null>(null);
 /** Why there is none. */
 export const missing = signal("");
@@ -86,6 +89,7 @@ export async function submit(source: Source, chart: string, point: number): Prom
     leg: now.legs.indexOf(now.leg),
     points: wanted,
     mirror: mirror.peek(),
+    obstacle: obstacle.peek() && now.kind === "cycle",
   });
   busy.value = false;
   if (more?.taken) {

@@ -29,6 +29,7 @@ export function CurvesPanel({ source }: { source: Source }) {
     <div class="curves" data-testid="curves">
       <Choice source={source} />
       <Tools source={source} disabled={!driving} />
+      {curve?.kind === "cycle" && <Ahead source={source} />}
       {!curve && <p class={desk.missing.value ? "refusal nothing" : "faint nothing"} data-testid="curve-missing">
         {desk.missing.value || "looking …"}
       </p>}
@@ -145,6 +146,28 @@ function Tools({ source, disabled }: { source: Source; disabled: boolean }) {
       >
         Save
       </button>
+    </div>
+  );
+}
+
+/** What is ahead of the leg: an edit can be how it gets over that. */
+function Ahead({ source }: { source: Source }) {
+  const ahead = desk.curve.value?.ahead;
+  const operators = source.curve.value?.operators ?? [];
+  const size = ahead && (ahead.kind === "slope" ? number(ahead.size) : `${number(100 * ahead.size, 1)} cm`);
+  return (
+    <div class="curves-ahead" data-testid="curve-ahead" data-kind={ahead?.kind ?? ""}>
+      <Switch
+        id="curve-obstacle"
+        label={ahead ? `over what is ahead: a ${ahead.kind} of ${size}` : "over what is ahead: nothing is"}
+        on={desk.obstacle.value}
+        change={(on) => (desk.obstacle.value = on)}
+      />
+      {operators.map((one) => (
+        <p key={one.name} class="faint" title={one.taught} data-testid="operator">
+          {one.strategy} over {one.kinds.join(", ")} of up to {number(100 * one.largest, 1)} cm
+        </p>
+      ))}
     </div>
   );
 }

@@ -6,8 +6,8 @@ import { drives, type Source } from "../source";
 import { ask } from "../ui/ask";
 import { Section } from "../ui/controls";
 import { Icon } from "../ui/icons";
-import { addressOf, duration, readName, size } from "./names";
-import { openReplay, replayer } from "./replay";
+import { addressOf, duration, FORMS, once, readName, size, stem } from "./names";
+import { openReplay } from "./replay";
 import "./recordings.css";
 
 export function RecordingsPanel({ source }: { source: Source }) {
@@ -16,7 +16,7 @@ export function RecordingsPanel({ source }: { source: Source }) {
   useEffect(() => {
     if (link === "open" && !recording) void source.send({ do: "recordings" });
   }, [source, recording, link]);
-  const kept = source.recordings.value?.names ?? [];
+  const kept = once(source.recordings.value?.names ?? []);
   return (
     <>
       <Recorder source={source} recording={recording} />
@@ -69,28 +69,34 @@ function Recorder({ source, recording }: { source: Source; recording: boolean })
 }
 
 function Kept({ name, bytes }: Recordings["names"][number]) {
-  const { day, time, what, kind } = readName(name);
-  const canPlay = replayer.value !== null;
+  const { day, time, what } = readName(name);
+  const ending = name.split(".").at(-1) ?? "";
+  const forms = ending === "npz" ? FORMS : [{ ending, title: name }];
   return (
     <li data-testid="recording" data-name={name}>
-      <span class="kept-name" title={name}>
-        <strong>{what}</strong> {time}
-        <span class="kept-more">
-          {[day, kind, size(bytes)].filter(Boolean).join(" · ")}
-        </span>
-      </span>
-      <button
-        class="icon"
-        data-testid="play"
-        disabled={!canPlay}
-        title={canPlay ? "Play it" : "There is no page to play it yet"}
-        onClick={() => openReplay(name)}
-      >
+      <button class="icon" data-testid="play" title="Play it" onClick={() => openReplay(name)}>
         <Icon name="play" />
       </button>
-      <a class="icon-link" href={addressOf(name, location.search)} download={name} title="Take it home" data-testid="download">
-        <Icon name="down" />
-      </a>
+      <span class="kept-name" title={name}>
+        <strong>{what}</strong> {time} <span class="faint">{day}</span>
+      </span>
+      <span class="kept-forms">
+        <span class="faint">{size(bytes)}</span>
+        {forms.map(({ ending, title }) => {
+          const file = `${stem(name)}.${ending}`;
+          return (
+            <a
+              key={ending}
+              href={addressOf(file, location.search)}
+              download={file}
+              title={title}
+              data-testid={`download-${ending}`}
+            >
+              {ending}
+            </a>
+          );
+        })}
+      </span>
     </li>
   );
 }

@@ -1,10 +1,7 @@
-// The door to the replay page: whoever can show a recording says so here.
+// Plays a recording: the page that the server makes of it, in a tab of its own.
 
-import { signal } from "@preact/signals";
-
-/** Shows a recording of this studio by its name; `null`: there is nobody who can. */
-export const replayer = signal<((name: string) => void) | null>(null);
+import { addressOf, stem } from "./names";
 
 export function openReplay(name: string): void {
-  replayer.peek()?.(name);
+  window.open(addressOf(`${stem(name)}.html`, location.search), "_blank", "noopener");
 }

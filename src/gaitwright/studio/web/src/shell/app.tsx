@@ -6,6 +6,7 @@ import { useHands } from "../drive/panel";
 import { useMap } from "../map/panel";
 import { panels } from "../panels";
 import type { Source } from "../source";
+import { Shown } from "../teach/shown";
 import { Stage } from "../view/stage";
 import { BottomBar } from "./bottom-bar";
 import { Dock } from "./dock";
@@ -23,6 +24,7 @@ export function App({ source }: { source: Source }) {
       <Dock side="left" panels={panels} source={source} />
       <main class="middle">
         <Stage source={source} tools={hands} />
+        <Shown source={source} />
       </main>
       <Dock side="right" panels={panels} source={source} />
       <BottomBar source={source} />
