@@ -50,8 +50,9 @@ export function paint(what: What, painting: Painting): void {
 
 /** A picture on its place of the world. */
 function lay({ context, frame }: Painting, picture: HTMLCanvasElement, [x0, y0, x1, y1]: number[]): void {
-  const [left, top] = toScreen(frame, x0, y1);
-  const [right, bottom] = toScreen(frame, x1, y0);
+  // whole pixels, so that no seam shows between neighbours
+  const [left, top] = toScreen(frame, x0, y1).map(Math.round);
+  const [right, bottom] = toScreen(frame, x1, y0).map(Math.round);
   if (right < 0 || bottom < 0 || left > frame.width || top > frame.height) return;
   context.drawImage(picture, left, top, right - left, bottom - top);
 }

@@ -14,6 +14,7 @@ import { Forest } from "./forest";
 import { Lessons } from "./lessons";
 import { useWhy } from "./why";
 import "./rules.css";
+import "./forest.css";
 
 /** The rule that is looked into; "": none. */
 export const opened = signal("");
