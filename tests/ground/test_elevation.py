@@ -17,6 +17,7 @@ from gaitwright.ground.elevation import (
     nearest,
 )
 from gaitwright.ground.scene import Scene, load_scene
+from gaitwright.ground.solids import Pyramid
 from gaitwright.ground.terrain import STEEPEST, Box, Flat
 from oracles import robot_called
 
@@ -61,7 +62,8 @@ def test_a_plane_needs_no_grid(name: str) -> None:
 
 
 def test_a_field_too_wide_for_a_grid_is_walked_blind() -> None:
-    wide = Scene("wide", Flat(), (Box(5.0, 0.0, 0.0, 1.0, 1.0, 0.1),), (-500.0, -500.0, 500.0, 500.0))
+    far = tuple(Box(side * 490.0, side * 490.0, 0.0, 1.0, 1.0, 0.1) for side in (-1.0, 1.0))
+    wide = Scene("wide", Flat(), far, (-500.0, -500.0, 500.0, 500.0))
     assert not is_known(elevation_grid(wide, DOG))
 
 
@@ -71,3 +73,20 @@ def test_no_foot_stands_at_the_rim_of_a_block() -> None:
     x, y = scene.boxes[0].corners().T
     assert all(grid.edges[nearest(grid, *corner)] == 1.0 for corner in zip(x, y, strict=True))
     assert grid.edges[nearest(grid, 1.0, 0.0)] == grid.edges[nearest(grid, 0.2, 0.0)] == 0.0
+
+
+WIDE, NARROW = (-100.0, -100.0, 100.0, 100.0), (-4.0, -4.0, 6.0, 4.0)
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        Scene("a box in a wide field", Flat(), (Box(3.0, 1.0, 0.4, 0.5, 0.8, 0.06),), WIDE),
+        Scene("a pyramid", Flat(), (), NARROW, shapes=(Pyramid(3.0, 1.0, 0.0, 0.8, 0.8, 0.06),)),
+    ],
+    ids=lambda scene: scene.name,
+)
+def test_what_stands_on_a_plane_is_known_to_feet(scene: Scene):
+    ground = elevation_grid(scene, DOG)
+    for x, y in ((3.0, 1.0), (2.9, 1.1), (1.0, 1.0), (5.0, -2.0), (3.0, 3.0)):
+        assert height_at(ground, x, y) == pytest.approx(float(scene.height(x, y)), abs=0.004)

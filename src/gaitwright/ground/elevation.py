@@ -28,20 +28,33 @@ BLIND = ElevationGrid(np.array([0.0, 0.0, 1.0]), np.empty((0, 0)), np.empty((0, 
 
 
 def elevation_grid(scene: Scene, robot: Robot) -> ElevationGrid:
-    """The known ground of a scene; a plane needs no grid, and a field too wide for one has none."""
-    if isinstance(scene.surface, Flat | Slope) and not scene.boxes:
+    """The known ground of a scene; a plane needs no grid, and a field too wide for one has none, but for
+    level ground: there the grid is as wide as what stands on it, and beyond its rim all is as at the rim."""
+    standing = (*scene.boxes, *scene.shapes)
+    if isinstance(scene.surface, Flat | Slope) and not standing:
         return BLIND
-    x_min, y_min, x_max, y_max = scene.bounds
-    nodes = (x_max - x_min) * (y_max - y_min) / MOST_NODES
-    spacing = max(SPACING * robot.height, float(np.sqrt(nodes)))
+    bounds = scene.bounds
+    if spacing_of(bounds, robot) > COARSEST * robot.height and isinstance(scene.surface, Flat):
+        extents, room = np.array([solid.extent() for solid in standing]), robot.height
+        low, high = extents[:, :2].min(axis=0) - room, extents[:, 2:].max(axis=0) + room
+        bounds = (*low.tolist(), *high.tolist())
+    spacing = spacing_of(bounds, robot)
     if spacing > COARSEST * robot.height:
         return BLIND
+    x_min, y_min, x_max, y_max = bounds
     x = np.arange(x_min, x_max + spacing, spacing)
     y = np.arange(y_min, y_max + spacing, spacing)
     heights = np.array(scene.height(x[None, :], y[:, None]), dtype=float)
     return ElevationGrid(
         np.array([x_min, y_min, spacing]), heights, edges(heights, EDGE * robot.height, spacing)
     )
+
+
+def spacing_of(bounds: tuple[float, ...], robot: Robot) -> float:
+    """Distance between nodes that are not more than `MOST_NODES` within bounds [m]."""
+    x_min, y_min, x_max, y_max = bounds
+    nodes = (x_max - x_min) * (y_max - y_min) / MOST_NODES
+    return max(SPACING * robot.height, float(np.sqrt(nodes)))
 
 
 def edges(

@@ -23,6 +23,8 @@ FAR = 2.5
 """So far ahead is looked for an obstacle [body lengths], …"""
 LOOKS = 0.2
 """… from one of a foot's ways to the next, in strides, …"""
+LARGER = 1.1
+"""What is learned at an obstacle is for such that are so much larger too: a foot may see it so."""
 SHORTEST = 0.5
 """… which are at least so long [body heights]."""
 
@@ -55,7 +57,7 @@ def next_ahead(walk: Walk, leg: int, session: Session) -> Obstacle | None:
         to = origin[:2] + stride * way
         kind, size = ahead_of(ground.footholds, origin, *to, robot.foot_radius[leg], robot.height)
         if kind != NOTHING:
-            return Obstacle(KINDS[kind], float(size))
+            return Obstacle(KINDS[kind], min(LARGER * float(size), robot.height))
     return None
 
 

@@ -14,7 +14,7 @@ from typing import Any, Protocol
 
 from gaitwright.errors import WrongUse
 from gaitwright.ground.scenes_list import scene_names
-from gaitwright.model.catalogue import ROBOTS
+from gaitwright.model.catalogue import robot_names
 from gaitwright.navigation.travel import Travel
 from gaitwright.record.previews import preview_of
 from gaitwright.signals import GroundMap
@@ -27,7 +27,7 @@ from gaitwright.studio.frames import columns_of, frame_of, row_of
 from gaitwright.studio.live_run import LiveRun
 from gaitwright.studio.recording_desk import RecordingDesk
 from gaitwright.studio.setup import DRIVERS, Setup
-from gaitwright.studio.shown import scan_shown, seen_shown, things_shown, world_shown
+from gaitwright.studio.shown import boxes_shown, scan_shown, seen_shown, things_shown, world_shown
 from gaitwright.studio.status import status_of
 from gaitwright.studio.teaching_desk import TeachingDesk
 from gaitwright.studio.world_desk import WorldDesk
@@ -61,7 +61,7 @@ class Room:
         self.driving = DrivingDesk(self.teaching, say)
         self.recording = RecordingDesk(folder)
         self.curves = CurveDesk(ledger, folder, say)
-        self.world = WorldDesk(self.say_world)
+        self.world = WorldDesk(self.say_boxes)
         desks: tuple[Desk, ...] = (self.driving, self.teaching, self.curves, self.recording, self.world)
         self.desks = desks
         self.does: dict[type[m.Message], Callable[[Any], Answer]] = {
@@ -135,11 +135,11 @@ class Room:
         self.teaching.warm_up()
         legs = self.run.robot.n
         choices = {
-            "robots": list(ROBOTS),
-            "scenes": [{"name": name, "about": about} for name, about in scene_names().items()],
-            "skills": list(skill_names(legs)),
             "drivers": list(DRIVERS),
             "modes": list(m.MODES),
+            "skills": list(skill_names(legs)),
+            "robots": list(robot_names()),
+            "scenes": [{"name": name, "about": about} for name, about in scene_names().items()],
         }
         self.say({"say": "hello", "version": 1, "columns": columns_of(legs), "choices": choices})
         self.say_world()
@@ -160,6 +160,11 @@ class Room:
 
     def say_world(self) -> None:
         self.say(world_shown(self.run.scene, [self.run.robot], self.run.boxes))
+        self.say_boxes()
+
+    def say_boxes(self) -> None:
+        """Where the boxes are, without all the rest of the world."""
+        self.say({"say": "boxes", "boxes": boxes_shown(self.run.scene, self.run.boxes)})
 
     def say_scan(self) -> None:
         """What the terrain scanner holds, and where moving things are."""

@@ -51,7 +51,7 @@ def world_shown(scene: Scene, robots: Iterable[Robot], boxes: Mapping[int, Box])
         "seed": scene.seed,
         "robots": [robot_shown(robot) for robot in robots],
         "ground": mesh(ground_triangles(scene)),
-        "boxes": [{"id": name, **box_shown(scene, box)} for name, box in boxes.items()],
+        "boxes": boxes_shown(scene, boxes),
         "spheres": [
             {"x": one.x, "y": one.y, "z": scene.top(one) - one.radius, "radius": one.radius}
             for one in scene.shapes
@@ -62,6 +62,11 @@ def world_shown(scene: Scene, robots: Iterable[Robot], boxes: Mapping[int, Box])
         "start": list(scene.start),
         "goal": list(scene.goal) if scene.goal else None,
     }
+
+
+def boxes_shown(scene: Scene, boxes: Mapping[int, Box]) -> list[dict[str, Any]]:
+    """Boxes that can be taken hold of, by their numbers."""
+    return [{"id": name, **box_shown(scene, box)} for name, box in boxes.items()]
 
 
 def box_shown(scene: Scene, box: Box) -> dict[str, float]:
