@@ -5,7 +5,7 @@ import { parseFrame } from "./frame";
 import { History } from "./history";
 import { Layout } from "./layout";
 import type {
-  Answer, Command, Curves, FromServer, Hello, Moved, Recordings, Role, Rules, Scan, Seen, Status, World,
+  Answer, Command, Curves, FromServer, Hello, Moved, Proposed, Recordings, Role, Rules, Scan, Seen, Status, World,
 } from "./protocol";
 import { Smooth } from "./smooth";
 import type { Link, Source } from "./source";
@@ -39,6 +39,7 @@ export class Live implements Source {
   readonly seen = signal<Seen | null>(null);
   readonly rules = signal<Rules | null>(null);
   readonly curve = signal<Curves | null>(null);
+  readonly tried = signal<Proposed | null>(null);
   readonly recordings = signal<Recordings | null>(null);
   readonly refusal = signal("");
   readonly layout = signal<Layout | null>(null);
@@ -53,6 +54,7 @@ export class Live implements Source {
     seen: this.seen,
     rules: this.rules,
     curve: this.curve,
+    tried: this.tried,
     recordings: this.recordings,
   };
   private socket: WebSocket | null = null;

@@ -70,6 +70,10 @@ export interface Status {
   arrived: boolean;
   fell: boolean;
   faults: string[];
+  /** Whether a motion is being composed, or played, and how many words it has. */
+  composing?: boolean;
+  playing?: boolean;
+  composed?: number;
   recording: boolean;
   /** of the recording so far [s] */
   recorded?: number;
@@ -127,7 +131,8 @@ export interface Why {
   fires: string;
 }
 
-/** Answer to `right`: what a lesson would do; nothing is learned before `keep`. */
+/** What a lesson would do; nothing is learned before `keep`. Answer to `right` and `order`, and said to all where
+    a person showed an apprentice what may be right. */
 export interface Tried {
   lesson: string;
   sentence: string;
@@ -143,6 +148,22 @@ export interface Curves {
   say: "curve";
   edits: number;
   pending: boolean;
+  /** What was learned at obstacles, in the order in which it is tried. */
+  operators: Operator[];
+}
+
+export interface Operator {
+  name: string;
+  kinds: string[];
+  /** [m] */
+  largest: number;
+  strategy: string;
+  taught: string;
+}
+
+export interface Proposed extends Tried {
+  say: "tried";
+  proposed: boolean;
 }
 
 export interface Recordings {
@@ -164,7 +185,7 @@ export interface Refused {
 }
 
 export type FromServer =
-  | Hello | Role | Closed | World | Status | Moved | Scan | Seen | Rules | Curves | Recordings | Done | Refused;
+  | Hello | Role | Closed | World | Status | Moved | Scan | Seen | Rules | Curves | Proposed | Recordings | Done | Refused;
 
 export type Command =
   | { do: "go"; x: number; y: number; then?: boolean }
@@ -180,15 +201,16 @@ export type Command =
   | { do: "move"; thing: string | number; x: number; y: number; yaw?: number }
   | { do: "remove"; thing: string | number }
   | { do: "record"; on: boolean }
+  | { do: "compose"; on: boolean }
   | { do: "right"; skill: string; speed?: number; turn?: number; about?: string; name?: string }
   | { do: "forget"; lesson?: string }
   | { do: "why"; rule?: string }
   | { do: "order"; rule: string; before: string }
   | { do: "curve"; kind: CurveKind; skill?: string; leg: number }
-  | { do: "edit"; kind: CurveKind; skill: string; leg: number; points: number[][]; mirror: boolean }
+  | { do: "edit"; kind: CurveKind; skill: string; leg: number; points: number[][]; mirror: boolean; obstacle?: boolean }
   | {
       do: "stand" | "pause" | "resume" | "abort" | "take" | "release" | "keep" | "back" | "ok" | "undo" | "redo"
-        | "save" | "recordings";
+        | "save" | "play" | "recordings";
     };
 
 /** `more`: what came with it. */
