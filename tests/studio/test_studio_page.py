@@ -78,7 +78,7 @@ def test_a_click_on_the_ground_sends_it_there(page: Any, watch: Line):
             break
     said = watch.last["status"]
     assert said["route"] and 0.5 < math.dist((0.0, 0.0), said["goal"]) < 100.0
-    assert watch.status(lambda said: said["skill"] != "stand")["controller"] == "hybrid"
+    assert watch.status(lambda said: said["skill"] != "stand")["controller"] == "numerical"
 
 
 def test_held_keys_drive_and_who_lets_go_stops(page: Any, watch: Line):

@@ -101,6 +101,8 @@ class LiveRun:
     def step(self) -> Lap | None:
         """One lap; `None` where the run is over."""
         lap = self.session.step() if self.lowering is None else next(self.lowering, None)
+        if self.held and self.session.outcome is not None:
+            self.let_choose()
         if lap is not None:
             self.lap = lap
             if self.recorder is not None:
