@@ -98,23 +98,6 @@ def test_time_stands_and_goes_on_step_by_step(page: Any, watch: Line):
     watch.status(lambda said: not said["paused"] and said["time"] > before + 0.1)
 
 
-def test_a_lesson_is_tried_kept_and_seen_among_the_rules(page: Any, watch: Line):
-    watch.status(lambda said: said["time"] > 0.3)
-    open_panel(page, "teach")
-    page.get_by_test_id("right-skill").select_option("pace")
-    page.get_by_test_id("right").click()
-    page.get_by_test_id("tried").wait_for()
-    assert watch.last["rules"]["rules"] == [] or "pace" not in str(watch.last["rules"]["rules"])
-    page.get_by_test_id("keep").first.click()
-    said = watch.until(lambda said: said["say"] == "rules" and "pace" in str(said["rules"]))
-    assert [rule["skill"] for rule in said["rules"]] == ["pace"]
-    open_panel(page, "rules")
-    page.get_by_test_id("rule-pace").click()
-    page.get_by_test_id("rule-detail").wait_for()
-    page.get_by_test_id("take-back").first.click()
-    watch.until(lambda said: said["say"] == "rules" and not said["rules"])
-
-
 def test_a_second_page_watches_and_takes_over(page: Any, watch: Line, studio: Studio, browser: Any):
     second = browser.new_page(viewport={"width": 800, "height": 600})
     second.goto(studio.address)
