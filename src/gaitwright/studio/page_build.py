@@ -80,9 +80,11 @@ def environment() -> dict[str, str]:
 def digest(folder: Path) -> str:
     """A number of all sources."""
     whole = hashlib.sha256()
-    for path in sorted(folder.rglob("*")):
-        if path.is_file() and not set(path.relative_to(folder).parts) & set(NOT_SOURCES):
-            whole.update(str(path.relative_to(folder)).encode() + b"\0" + path.read_bytes())
+    for place, folders, names in os.walk(folder):
+        folders[:] = sorted(set(folders) - set(NOT_SOURCES))
+        for name in sorted(names):
+            path = Path(place) / name
+            whole.update(path.relative_to(folder).as_posix().encode() + b"\0" + path.read_bytes())
     return whole.hexdigest()
 
 
