@@ -116,7 +116,7 @@ def story(robot: Robot, args: Namespace) -> int:
 
 
 def build_page() -> None:
-    """What replays are made of, where it can be had: in a clone it is built once, which takes some seconds."""
+    """What replays are made of, where it can be had: in a clone it is built once, in seconds."""
     try:
         with working("building the page of replays (first run only)", worth_a_line=None):
             ready_page(lambda told: None)
