@@ -131,6 +131,7 @@ class Hub:
         self.last[kind] = text
         self.closed = self.closed or kind == "closed"
         for member in self.members.values():
+            member.said.pop(kind, None)  # it stands behind what was said before it
             member.said[kind] = text
             member.news.set()
 

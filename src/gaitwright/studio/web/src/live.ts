@@ -5,7 +5,7 @@ import { parseFrame } from "./frame";
 import { History } from "./history";
 import { Layout } from "./layout";
 import type {
-  Answer, Command, Curves, FromServer, Hello, Moved, Proposed, Recordings, Role, Rules, Scan, Seen, Status, World,
+  Answer, Command, Curves, FromServer, Hello, Moved, Proposed, Recordings, Remark, Role, Rules, Scan, Seen, Status, World,
 } from "./protocol";
 import { Smooth } from "./smooth";
 import type { Link, Source } from "./source";
@@ -40,6 +40,7 @@ export class Live implements Source {
   readonly rules = signal<Rules | null>(null);
   readonly curve = signal<Curves | null>(null);
   readonly tried = signal<Proposed | null>(null);
+  readonly remark = signal<Remark | null>(null);
   readonly recordings = signal<Recordings | null>(null);
   readonly refusal = signal("");
   readonly layout = signal<Layout | null>(null);
@@ -55,6 +56,7 @@ export class Live implements Source {
     rules: this.rules,
     curve: this.curve,
     tried: this.tried,
+    remark: this.remark,
     recordings: this.recordings,
   };
   private socket: WebSocket | null = null;
@@ -160,6 +162,9 @@ export class Live implements Source {
         break;
       case "world":
         this.settle(message);
+        break;
+      case "boxes":
+        if (this.world.value) this.world.value = { ...this.world.value, boxes: message.boxes };
         break;
       case "closed":
         this.closed.value = message.because;

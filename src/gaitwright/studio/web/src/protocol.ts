@@ -3,7 +3,7 @@
 
 import type { CurveKind } from "./protocol-curves";
 import type { Rules } from "./protocol-rules";
-import type { Column, Thing, Vec2, Vec3, World } from "./protocol-scene";
+import type { Box, Column, Thing, Vec2, Vec3, World } from "./protocol-scene";
 
 export * from "./protocol-curves";
 export * from "./protocol-rules";
@@ -161,6 +161,18 @@ export interface Operator {
   taught: string;
 }
 
+/** Where the boxes are now, without all the rest of the world. */
+export interface Boxes {
+  say: "boxes";
+  boxes: Box[];
+}
+
+/** Something that nobody asked for, in a sentence. */
+export interface Remark {
+  say: "remark";
+  sentence: string;
+}
+
 export interface Proposed extends Tried {
   say: "tried";
   proposed: boolean;
@@ -185,7 +197,7 @@ export interface Refused {
 }
 
 export type FromServer =
-  | Hello | Role | Closed | World | Status | Moved | Scan | Seen | Rules | Curves | Proposed | Recordings | Done | Refused;
+  | Hello | Role | Closed | World | Boxes | Remark | Status | Moved | Scan | Seen | Rules | Curves | Proposed | Recordings | Done | Refused;
 
 export type Command =
   | { do: "go"; x: number; y: number; then?: boolean }

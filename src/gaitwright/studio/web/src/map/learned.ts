@@ -87,6 +87,7 @@ export const news = signal(0);
 /** Gathers what a source tells, from now on. */
 export function gather(source: Source): () => void {
   let world: World | null = null;
+  let before: Seen | null = null;
   let time = -Infinity;
   const anew = () => {
     learned.clear();
@@ -95,13 +96,19 @@ export function gather(source: Source): () => void {
   const stops = [
     effect(() => {
       const now = source.world.value;
+      before = source.seen.peek();
       if (!now || sameGround(now, world)) return;
       world = now;
       anew();
     }),
     effect(() => {
       const now = source.status.value?.time ?? time;
-      if (now < time) anew();
+      if (now < time) {
+        // another run on the same ground: of what was seen only that counts which was told since
+        anew();
+        const seen = source.seen.peek();
+        if (seen && seen !== before) learned.add(seen);
+      }
       time = now;
     }),
     effect(() => {

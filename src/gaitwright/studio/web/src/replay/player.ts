@@ -25,6 +25,7 @@ export class Player implements Source {
   readonly seen = nothing;
   readonly rules = nothing;
   readonly tried = nothing;
+  readonly remark = nothing;
   readonly curve = nothing;
   readonly recordings = nothing;
   readonly refusal = signal("");

@@ -38,6 +38,11 @@ export function Compose({ source, status, driving }: { source: Source; status: S
             ? "Drive the robot: skills, velocities and goals are noted with their time."
             : "What you do with the robot from “Compose” on can be played again."}
       </p>
+      {!composing && !playing && source.remark.value && (
+        <p class="about" data-testid="remark">
+          {source.remark.value.sentence}
+        </p>
+      )}
       {because && <p class="refusal">{because}</p>}
     </Section>
   );
