@@ -3,7 +3,7 @@
 
 import type { CurveKind } from "./protocol-curves";
 import type { Rules } from "./protocol-rules";
-import type { Column, Thing, Vec2, Vec3, World } from "./protocol-scene";
+import type { Box, Column, Thing, Vec2, Vec3, World } from "./protocol-scene";
 
 export * from "./protocol-curves";
 export * from "./protocol-rules";
@@ -80,6 +80,18 @@ export interface Status {
   share: Record<string, number>;
 }
 
+/** Where the boxes are now: these, and no others. */
+export interface Boxes {
+  say: "boxes";
+  boxes: Box[];
+}
+
+/** Something that happened, in a sentence. */
+export interface Remark {
+  say: "remark";
+  sentence: string;
+}
+
 export interface Moved {
   say: "moved";
   things: Thing[];
@@ -152,19 +164,19 @@ export interface Recordings {
 
 export interface Done {
   say: "done";
-  id: number;
+  id: number | null;
   /** what else is answered */
   [more: string]: unknown;
 }
 
 export interface Refused {
   say: "refused";
-  id?: number;
+  id?: number | null;
   because: string;
 }
 
 export type FromServer =
-  | Hello | Role | Closed | World | Status | Moved | Scan | Seen | Rules | Curves | Recordings | Done | Refused;
+  | Hello | Role | Closed | World | Boxes | Remark | Status | Moved | Scan | Seen | Rules | Curves | Recordings | Done | Refused;
 
 export type Command =
   | { do: "go"; x: number; y: number; then?: boolean }
