@@ -14,7 +14,7 @@ from gaitwright.studio.messages import Anyone, Release, Reset, Take, id_of, mess
 
 MOST_ANSWERS, MOST_WATCHERS = 256, 64
 KINDS = ("hello", "world", "boxes", "rules", "status", "scan", "seen", "moved", "curve", "closed")
-"""What is said to everybody; one who comes later is told the last of each, in this order."""
+"""Of what is said to everybody, one who comes later is told the last of each of these, in this order."""
 
 
 class Member:

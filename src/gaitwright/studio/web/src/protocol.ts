@@ -48,6 +48,12 @@ export interface Status {
   pace: number;
   real_time: number;
   mode: Mode;
+  /** A motion is being composed, or played; its words and seconds, and how much of it was played [s]. */
+  composing?: boolean;
+  playing?: boolean;
+  composed?: number;
+  composed_seconds?: number;
+  played_seconds?: number;
   /** the driver asked for */
   driver: string;
   /** who has the joints now */
@@ -191,7 +197,7 @@ export type Command =
   | { do: "place"; x: number; y: number; lx: number; ly: number; height: number; yaw: number }
   | { do: "move"; thing: string | number; x: number; y: number; yaw?: number }
   | { do: "remove"; thing: string | number }
-  | { do: "record"; on: boolean }
+  | { do: "compose" | "record"; on: boolean }
   | { do: "right"; skill: string; speed?: number; turn?: number; about?: string; name?: string }
   | { do: "forget"; lesson?: string }
   | { do: "why"; rule?: string }
@@ -199,7 +205,7 @@ export type Command =
   | { do: "curve"; kind: CurveKind; skill?: string; leg: number }
   | { do: "edit"; kind: CurveKind; skill: string; leg: number; points: number[][]; mirror: boolean }
   | {
-      do: "stand" | "pause" | "resume" | "abort" | "take" | "release" | "keep" | "back" | "ok" | "undo" | "redo"
+      do: "stand" | "play" | "pause" | "resume" | "abort" | "take" | "release" | "keep" | "back" | "ok" | "undo" | "redo"
         | "save" | "recordings";
     };
 
