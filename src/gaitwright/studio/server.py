@@ -28,8 +28,13 @@ POLICY = (
     "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
     "media-src 'self' blob:; connect-src 'self'; frame-ancestors 'none'; base-uri 'none'"
 )
+REPLAY_POLICY = (
+    "sandbox allow-scripts allow-downloads; default-src 'none'; script-src 'unsafe-inline'; "
+    "style-src 'unsafe-inline'; img-src data: blob:; media-src blob:; frame-ancestors 'none'; base-uri 'none'"
+)
+"""A replay has its script inside: it may run, but as a page from nowhere, that reaches nothing."""
+SECURITY = b"content-security-policy"
 HEADERS = [
-    (b"content-security-policy", POLICY.encode()),
     (b"x-content-type-options", b"nosniff"),
     (b"referrer-policy", b"no-referrer"),
     (b"cache-control", b"no-cache"),
@@ -47,9 +52,11 @@ def application(hub: Hub, page: Path, shelf: Shelf, token: str, hosts: frozenset
     async def recording(request: Request) -> Response:
         check_token(request, token)
         try:
-            return FileResponse(await taken_home(shelf, request.path_params["name"]))
+            path = await taken_home(shelf, request.path_params["name"])
         except WrongUse as error:
             raise HTTPException(404, str(error)) from None
+        policy = REPLAY_POLICY if path.suffix == ".html" else POLICY
+        return FileResponse(path, headers={SECURITY.decode(): policy})
 
     async def live(socket: WebSocket) -> None:
         if not hmac.compare_digest(socket.query_params.get("token", ""), token):
@@ -139,7 +146,10 @@ class Guarded:
 
         async def with_headers(message) -> None:
             if message["type"] == "http.response.start":
-                message["headers"] = [*message["headers"], *HEADERS]
+                own = message["headers"]
+                has_policy = any(name == SECURITY for name, _ in own)
+                policy = [] if has_policy else [(SECURITY, POLICY.encode())]
+                message["headers"] = [*own, *policy, *HEADERS]
             await send(message)
 
         await self.app(scope, receive, with_headers)

@@ -64,7 +64,7 @@ def world_shown(scene: Scene, robots: Iterable[Robot], boxes: Mapping[int, Box])
     }
 
 
-def boxes_shown(scene: Scene, boxes: Mapping[int, Box]) -> list[dict[str, float]]:
+def boxes_shown(scene: Scene, boxes: Mapping[int, Box]) -> list[dict[str, Any]]:
     """Boxes that can be taken hold of, by their numbers."""
     return [{"id": name, **box_shown(scene, box)} for name, box in boxes.items()]
 

@@ -5,7 +5,8 @@ import { parseFrame } from "./frame";
 import { History } from "./history";
 import { Layout } from "./layout";
 import type {
-  Answer, Box, Command, Curves, FromServer, Hello, Moved, Recordings, Remark, Role, Rules, Scan, Seen, Status, World,
+  Answer, Box, Command, Curves, FromServer, Hello, Moved, Proposed, Recordings, Remark, Role, Rules, Scan, Seen,
+  Status, World,
 } from "./protocol";
 import { Smooth } from "./smooth";
 import type { Link, Source } from "./source";
@@ -42,6 +43,7 @@ export class Live implements Source {
   readonly seen = signal<Seen | null>(null);
   readonly rules = signal<Rules | null>(null);
   readonly curve = signal<Curves | null>(null);
+  readonly tried = signal<Proposed | null>(null);
   readonly recordings = signal<Recordings | null>(null);
   readonly remark = signal<Remark | null>(null);
   readonly refusal = signal("");
@@ -57,6 +59,7 @@ export class Live implements Source {
     seen: this.seen,
     rules: this.rules,
     curve: this.curve,
+    tried: this.tried,
     recordings: this.recordings,
     remark: this.remark,
   };

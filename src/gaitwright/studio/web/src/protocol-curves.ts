@@ -45,6 +45,8 @@ export interface Curve {
   edited: boolean;
   /** Whether legs are still to follow what was asked for. */
   pending: boolean;
+  /** What the leg will have to get over next; a size in m. */
+  ahead: { kind: string; size: number } | null;
 }
 
 /** What was seen of an edit in physics. */

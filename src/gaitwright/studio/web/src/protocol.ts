@@ -145,7 +145,8 @@ export interface Why {
   fires: string;
 }
 
-/** Answer to `right`: what a lesson would do; nothing is learned before `keep`. */
+/** What a lesson would do; nothing is learned before `keep`. Answer to `right` and `order`, and said to all where
+    a person showed an apprentice what may be right. */
 export interface Tried {
   lesson: string;
   sentence: string;
@@ -161,6 +162,22 @@ export interface Curves {
   say: "curve";
   edits: number;
   pending: boolean;
+  /** What was learned at obstacles, in the order in which it is tried. */
+  operators: Operator[];
+}
+
+export interface Operator {
+  name: string;
+  kinds: string[];
+  /** [m] */
+  largest: number;
+  strategy: string;
+  taught: string;
+}
+
+export interface Proposed extends Tried {
+  say: "tried";
+  proposed: boolean;
 }
 
 export interface Recordings {
@@ -182,7 +199,8 @@ export interface Refused {
 }
 
 export type FromServer =
-  | Hello | Role | Closed | World | Boxes | Remark | Status | Moved | Scan | Seen | Rules | Curves | Recordings | Done | Refused;
+  | Hello | Role | Closed | World | Boxes | Remark | Status | Moved | Scan | Seen | Rules | Curves | Proposed
+  | Recordings | Done | Refused;
 
 export type Command =
   | { do: "go"; x: number; y: number; then?: boolean }
@@ -203,7 +221,7 @@ export type Command =
   | { do: "why"; rule?: string }
   | { do: "order"; rule: string; before: string }
   | { do: "curve"; kind: CurveKind; skill?: string; leg: number }
-  | { do: "edit"; kind: CurveKind; skill: string; leg: number; points: number[][]; mirror: boolean }
+  | { do: "edit"; kind: CurveKind; skill: string; leg: number; points: number[][]; mirror: boolean; obstacle?: boolean }
   | {
       do: "stand" | "play" | "pause" | "resume" | "abort" | "take" | "release" | "keep" | "back" | "ok" | "undo" | "redo"
         | "save" | "recordings";

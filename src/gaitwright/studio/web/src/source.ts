@@ -4,7 +4,7 @@ import type { ReadonlySignal } from "@preact/signals";
 import type { History } from "./history";
 import type { Layout } from "./layout";
 import type {
-  Answer, Box, Command, Curves, Hello, Moved, Recordings, Remark, Role, Rules, Scan, Seen, Status, World,
+  Answer, Box, Command, Curves, Hello, Moved, Proposed, Recordings, Remark, Role, Rules, Scan, Seen, Status, World,
 } from "./protocol";
 
 export type Link = "connecting" | "open" | "lost";
@@ -25,6 +25,8 @@ export interface Source {
   readonly seen: ReadonlySignal<Seen | null>;
   readonly rules: ReadonlySignal<Rules | null>;
   readonly curve: ReadonlySignal<Curves | null>;
+  /** What a person showed an apprentice last. */
+  readonly tried: ReadonlySignal<Proposed | null>;
   readonly recordings: ReadonlySignal<Recordings | null>;
   /** What happened last, for the bar below. */
   readonly remark: ReadonlySignal<Remark | null>;

@@ -4,7 +4,6 @@ import { useState } from "preact/hooks";
 import { drives, type Source } from "../source";
 import { number, Section, Select, Field, Segmented, Slider } from "../ui/controls";
 import { chosen, placing, size } from "./placing";
-import { Recordings } from "./recordings";
 
 export function WorldPanel({ source }: { source: Source }) {
   const watching = !drives(source);
@@ -13,7 +12,6 @@ export function WorldPanel({ source }: { source: Source }) {
       <Setup source={source} watching={watching} />
       <NewBox watching={watching} />
       <ChosenBox source={source} watching={watching} />
-      <Recordings source={source} />
     </>
   );
 }

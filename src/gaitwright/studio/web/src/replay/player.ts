@@ -25,7 +25,6 @@ export class Player implements Source {
   readonly scan = nothing;
   readonly seen = nothing;
   readonly rules = nothing;
-  readonly why = nothing;
   readonly tried = nothing;
   readonly curve = nothing;
   readonly recordings = nothing;

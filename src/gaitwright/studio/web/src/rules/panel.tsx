@@ -1,16 +1,20 @@
 // Rules: in their order, how far each has come, which one is in use and why; a rule's trees and history.
 
 import { signal } from "@preact/signals";
-import { useEffect, useRef } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import type { Rule, Rules } from "../protocol";
-import type { Source } from "../source";
+import { tabs } from "../shell/docks";
+import { drives, type Source } from "../source";
+import { order } from "../teach/teaching";
 import { skillColour } from "../ui/colours";
 import { Section } from "../ui/controls";
+import { Icon } from "../ui/icons";
 import { Asking } from "./asking";
 import { Forest } from "./forest";
 import { Lessons } from "./lessons";
 import { useWhy } from "./why";
 import "./rules.css";
+import "./forest.css";
 
 /** The rule that is looked into; "": none. */
 export const opened = signal("");
@@ -118,6 +122,7 @@ function Detail({ source, rules, rule, lit }: { source: Source; rules: Rules; ru
       </p>
       <p class="rule-sentence">{rule.sentence}</p>
       <Asking source={source} rule={rule.name} fires={fires} />
+      <Order source={source} rules={rules} rule={rule} />
       <Legend />
       <Forest trees={rules.trees} rule={rule} situation={why?.situation ?? {}} />
       <h3>
@@ -133,6 +138,33 @@ function Detail({ source, rules, rule, lit }: { source: Source; rules: Rules; ru
         {rule.quiet} {rule.quiet === 1 ? "lesson" : "lessons"} since a mark moved
       </p>
     </div>
+  );
+}
+
+/** Before the rule above it, where both could fire: a lesson, laid before its teacher under “Teach”. */
+function Order({ source, rules, rule }: { source: Source; rules: Rules; rule: Rule }) {
+  const [because, setBecause] = useState("");
+  const above = rules.rules[rules.rules.indexOf(rule) - 1];
+  if (!above) return null;
+  const put = async () => {
+    const refused = await order(source, rule.name, above.name);
+    setBecause(refused);
+    if (!refused) tabs.left.value = "teach";
+  };
+  return (
+    <>
+      <div class="asking">
+        <button class="icon-text" data-testid="order" disabled={!drives(source)} onClick={() => void put()}>
+          <Icon name="up" />
+          Before {above.name}
+        </button>
+      </div>
+      {because && (
+        <p class="refusal" data-testid="refusal-order">
+          {because}
+        </p>
+      )}
+    </>
   );
 }
 

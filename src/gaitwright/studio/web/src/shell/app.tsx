@@ -3,8 +3,10 @@
 import { useMemo } from "preact/hooks";
 import { tools } from "../drive/hand";
 import { useHands } from "../drive/panel";
+import { useMap } from "../map/panel";
 import { panels } from "../panels";
 import type { Source } from "../source";
+import { Shown } from "../teach/shown";
 import { Stage } from "../view/stage";
 import { BottomBar } from "./bottom-bar";
 import { Dock } from "./dock";
@@ -13,6 +15,7 @@ import { dockWidth } from "./docks";
 
 export function App({ source }: { source: Source }) {
   useHands(source);
+  useMap(source);
   const hands = useMemo(() => tools(source), [source]);
   const style = { "--left": `${dockWidth("left")}px`, "--right": `${dockWidth("right")}px` };
   return (
@@ -21,6 +24,7 @@ export function App({ source }: { source: Source }) {
       <Dock side="left" panels={panels} source={source} />
       <main class="middle">
         <Stage source={source} tools={hands} />
+        <Shown source={source} />
       </main>
       <Dock side="right" panels={panels} source={source} />
       <BottomBar source={source} />

@@ -25,6 +25,9 @@ export const refused = signal<{ field: Field | "keep" | "ok"; because: string } 
 export const learned = signal("");
 export const waits = signal(false);
 
+/** Whether what was tried is what a person showed by doing it. */
+export const proposed = signal(false);
+
 /** Whether time was stopped so that “here” stays here. */
 let stopped = false;
 
@@ -52,8 +55,22 @@ export async function tellWhatIsRight(source: Source): Promise<void> {
   waits.value = true;
   const { more, because } = await ask<Tried>(source, { do: "right", skill, ...meant, about, name: name.trim() });
   waits.value = false;
-  tried.value = more;
+  propose(more, false);
   if (because) refused.value = { field: fieldOf(because), because };
+}
+
+/** Lays what a lesson would do before its teacher. */
+export function propose(more: Tried | null, shown: boolean): void {
+  refused.value = null;
+  tried.value = more;
+  proposed.value = shown && more !== null;
+}
+
+/** One rule before another, as a lesson; why not, where that cannot be. */
+export async function order(source: Source, rule: string, before: string): Promise<string> {
+  const { more, because } = await ask<Tried>(source, { do: "order", rule, before });
+  if (more) propose(more, false);
+  return because;
 }
 
 /** What was tried is learned. */

@@ -1,0 +1,102 @@
+// Recordings: one that is being made, and those that were kept, to take home and to play.
+
+import { useEffect, useState } from "preact/hooks";
+import type { Recordings } from "../protocol";
+import { drives, type Source } from "../source";
+import { ask } from "../ui/ask";
+import { Section } from "../ui/controls";
+import { Icon } from "../ui/icons";
+import { addressOf, duration, FORMS, once, readName, size, stem } from "./names";
+import { openReplay } from "./replay";
+import "./recordings.css";
+
+export function RecordingsPanel({ source }: { source: Source }) {
+  const recording = source.status.value?.recording ?? false;
+  const link = source.link.value;
+  useEffect(() => {
+    if (link === "open" && !recording) void source.send({ do: "recordings" });
+  }, [source, recording, link]);
+  const kept = once(source.recordings.value?.names ?? []);
+  return (
+    <>
+      <Recorder source={source} recording={recording} />
+      <Section title="Kept" aside={kept.length ? `${kept.length}, the last first` : ""}>
+        {!kept.length && <p class="faint about">There is none yet.</p>}
+        <ul class="kept" data-testid="recordings">
+          {kept.map((one) => (
+            <Kept key={one.name} {...one} />
+          ))}
+        </ul>
+      </Section>
+    </>
+  );
+}
+
+function Recorder({ source, recording }: { source: Source; recording: boolean }) {
+  const [because, setBecause] = useState("");
+  const [last, setLast] = useState("");
+  const driving = drives(source);
+  const turn = async () => {
+    const { more, because } = await ask<{ recording?: string }>(source, { do: "record", on: !recording });
+    setBecause(because);
+    setLast(more?.recording ?? "");
+  };
+  return (
+    <Section title="Record">
+      <div class="recorder">
+        <button
+          class={`icon-text ${recording ? "recording" : ""}`}
+          data-testid="record-turn"
+          aria-pressed={recording}
+          disabled={!driving}
+          onClick={() => void turn()}
+        >
+          <Icon name={recording ? "stop" : "record"} />
+          {recording ? "End and keep" : "Record"}
+        </button>
+        <span class={recording ? "recorded on" : "recorded"} data-testid="recorded">
+          {duration(source.status.value?.recorded ?? 0)}
+        </span>
+      </div>
+      {because && (
+        <p class="refusal" data-testid="record-refused">
+          {because}
+        </p>
+      )}
+      {last && !recording && <p class="faint about">Kept as {last}</p>}
+    </Section>
+  );
+}
+
+function Kept({ name, bytes }: Recordings["names"][number]) {
+  const { day, time, what } = readName(name);
+  const ending = name.split(".").at(-1) ?? "";
+  const forms = ending === "npz" ? FORMS : [{ ending, title: name }];
+  return (
+    <li data-testid="recording" data-name={name}>
+      <button class="icon" data-testid="play" title="Play it" onClick={() => openReplay(name)}>
+        <Icon name="play" />
+      </button>
+      <span class="kept-name" title={name}>
+        <strong>{what}</strong> {time} <span class="faint">{day}</span>
+      </span>
+      <span class="kept-forms">
+        <span class="faint">{size(bytes)}</span>
+        {forms.map(({ ending, title }) => {
+          const file = `${stem(name)}.${ending}`;
+          return (
+            <a
+              key={ending}
+              href={addressOf(file, location.search)}
+              download={file}
+              title={title}
+              data-testid={`download-${ending}`}
+            >
+              {ending}
+            </a>
+          );
+        })}
+      </span>
+    </li>
+  );
+}

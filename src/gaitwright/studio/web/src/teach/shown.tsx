@@ -1,0 +1,40 @@
+// What a person showed an apprentice by doing it: is it right there? Asked over the views, until it is said.
+
+import { useEffect } from "preact/hooks";
+import { tabs } from "../shell/docks";
+import { drives, type Source } from "../source";
+import { drop, keep, propose, proposed, tried } from "./teaching";
+import "./teach.css";
+
+export function Shown({ source }: { source: Source }) {
+  const told = source.tried.value;
+  useEffect(() => {
+    if (told) propose(told, told.proposed);
+  }, [told]);
+  const now = tried.value;
+  if (!now || !proposed.value) return null;
+  const driving = drives(source);
+  const broken = now.broken.length;
+  return (
+    <div class="shown" data-testid="proposed" data-followed={`${now.followed}`}>
+      <p>
+        <strong>Is {now.sentence.replace(/ is right here$/, "")} right here?</strong>
+      </p>
+      <p class={broken || !now.followed ? "warn" : "faint"}>
+        {now.followed ? "It would do so from now on" : "It would still do something else here"}
+        {broken > 0 && `, and no longer follow ${broken} of its lessons`}.
+      </p>
+      <div class="verdict">
+        <button class="primary" data-testid="proposed-keep" disabled={!driving} onClick={() => void keep(source)}>
+          Learn it
+        </button>
+        <button data-testid="proposed-drop" disabled={!driving} onClick={() => void drop(source)}>
+          Not
+        </button>
+        <button data-testid="proposed-more" onClick={() => (tabs.left.value = "teach")}>
+          What else?
+        </button>
+      </div>
+    </div>
+  );
+}
