@@ -94,10 +94,11 @@ class DrivingDesk:
             self.run.let_choose()
             return
         # Of an apprentice: what she does here may be right here. She says whether.
-        proposed = self.teaching.proposed(said.name) if self.mode == "apprentice" else None
+        word = m.Right(skill=said.name, speed=said.speed)
+        shown = self.teaching.right(word) if self.mode == "apprentice" else None
         self.run.hold(said.name, said.speed)
-        if proposed is not None:
-            self.say({"say": "tried", "proposed": True, **proposed})
+        if shown is not None:
+            self.teaching.propose(shown)
 
     def drive(self, said: m.Drive) -> None:
         self.run.drive(said.driver)

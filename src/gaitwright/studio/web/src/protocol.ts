@@ -175,10 +175,8 @@ export interface Operator {
   taught: string;
 }
 
-export interface Proposed extends Tried {
-  say: "tried";
-  proposed: boolean;
-}
+/** What a person showed an apprentice waits for her word, or nothing does any more. */
+export type Proposed = { say: "tried" } & (({ proposed: true } & Tried) | { proposed: false });
 
 export interface Recordings {
   say: "recordings";

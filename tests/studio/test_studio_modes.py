@@ -1,4 +1,4 @@
-"""A motion that a person composes by driving, and that is played back (row S2, mode "guide")."""
+"""Modes (row S2): a motion that a person composes by driving and plays back; an apprentice that is shown."""
 
 import math
 from pathlib import Path
@@ -105,3 +105,34 @@ def test_one_who_steers_a_held_skill_has_taken_over_from_it(room: Room):
     laps(room, 0.4)
     room.hears(m.Stand())
     assert room.status()["held"] == ""
+
+
+# --- an apprentice ----------------------------------------------------------------------------------
+def waits(said: list[dict]) -> list[bool]:
+    return [one["proposed"] for one in said if one["say"] == "tried"]
+
+
+def test_what_an_apprentice_is_shown_waits_for_a_word_that_all_are_told_of(room: Room, said: list[dict]):
+    room.hears(m.SetMode(mode="apprentice"))
+    laps(room, 0.1)
+    room.hears(m.Skill(name="trot", speed=0.3))
+    shown = next(one for one in said if one["say"] == "tried")
+    assert shown["followed"] and "trot" in shown["sentence"] and waits(said) == [True]
+    assert not room.ledger.book.rulebook.rules, "nothing is learned before it is kept"
+    room.hears(m.Keep())
+    assert waits(said) == [True, False]
+    assert [rule.action.skill for rule in room.ledger.book.rulebook.rules] == ["trot"]
+
+
+@pytest.mark.parametrize("word", [m.Back(), m.Reset(), m.Right(skill="walk")])
+def test_what_was_shown_waits_no_more_after_another_word(room: Room, said: list[dict], word: m.Message):
+    room.hears(m.SetMode(mode="apprentice"))
+    room.hears(m.Skill(name="trot"))
+    room.hears(word)
+    assert waits(said) == [True, False]
+
+
+def test_no_one_else_than_an_apprentice_asks(room: Room, said: list[dict]):
+    room.hears(m.Skill(name="trot"))
+    room.hears(m.Back())
+    assert not waits(said)
