@@ -109,17 +109,16 @@ def test_an_apprentice_asks_whether_what_it_is_shown_is_right(page: Any, line: L
 
 def test_a_motion_is_composed_and_played_back(page: Any, line: Line):
     at(page, "mode-guide").click()
-    at(page, "tab-teach").click()
+    at(page, "tab-drive").click()
     at(page, "compose").click()
     line.status(lambda said: said["composing"])
-    at(page, "tab-drive").click()
+    at(page, "composing").wait_for()
     at(page, "skill-pace").click()
     line.status(lambda said: said["skill"] == "pace")
     at(page, "stand").click()
-    at(page, "tab-teach").click()
     at(page, "compose").click()
     assert line.status(lambda said: not said["composing"])["composed"] == 2
-    at(page, "play-motion").click()
+    at(page, "play").click()
     line.status(lambda said: said["playing"] and said["skill"] == "pace")
     line.status(lambda said: not said["playing"])
 
