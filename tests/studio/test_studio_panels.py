@@ -212,12 +212,17 @@ def test_a_step_corrected_at_a_block_is_a_rule_that_says_why(page: Any, line: Li
         with suppress(AssertionError):
             line.status(lambda said: said["goal"], 2.0)
             break
+    line.done(do="take")
     ahead: dict[str, Any] = {"kind": "", "size": 0.0}
     while ahead["kind"] not in ("block", "step up") or ahead["size"] < 0.05:  # until it sees all of it
-        assert line.status()["time"] < 30.0, "it comes to the block"
-        ahead = line.done(do="curve", kind="cycle")["curve"]["ahead"] or ahead
+        line.done(do="resume")
+        line.status()
+        line.done(do="pause")
+        shown = line.done(do="curve", kind="cycle")["curve"]
+        ahead = shown["ahead"] or ahead
+        assert line.last["status"]["time"] < 30.0, "it comes to the block"
     assert ahead["size"] < 0.08
-    at(page, "pause").click()
+    at(page, "take").click()
     at(page, "tab-curves").click()
     at(page, "curve-ahead").locator("input").check()
     drag(page, "point-path-4", 0, -25)

@@ -93,7 +93,7 @@ def test_frames_come_as_their_columns_say(line: Line):
         ('{"do": "step", "ticks": 1000000}', "<= 5000"),
         ('{"do": "pace", "factor": 0}', ">= 0.05"),
         ('{"do": "steer", "forward": 1e300}', "<= 100"),
-        ('{"do": "edit", "kind": "cycle", "skill": "trot", "leg": 0, "points": [[1]]}', "length >= 2"),
+        ('{"do": "edit", "kind": "cycle", "skill": "trot", "leg": 0, "points": [[1]]}', "length >= 3"),
         ("🦎" * 1000, "no message"),
     ],
 )
