@@ -112,7 +112,8 @@ class Studio:
 
     def connect(self, token: str | None = None, **settings: Any) -> ClientConnection:
         token = self.token if token is None else token
-        return connect(f"ws://{self.place}/live?token={token}", max_size=None, legacy=True, **settings)
+        own = {"max_size": None, "legacy": True, "close_timeout": 0.3}
+        return connect(f"ws://{self.place}/live?token={token}", **own, **settings)
 
     def line(self) -> Line:
         """A page's connection, once the robot stands there."""

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from gaitwright.cli import driving, maps, trips
-from gaitwright.cli.console import remark
+from gaitwright.cli.console import remark, working
 from gaitwright.cli.driving import profiles_for
 from gaitwright.cli.mission_book import keep_map, with_map
 from gaitwright.cli.output import numbered_folder
@@ -18,6 +18,7 @@ from gaitwright.cli.teach_profiles import learned
 from gaitwright.cli.trip_rows import show_trips
 from gaitwright.control.takeover import HYBRID, LEARNED, NUMERICAL
 from gaitwright.driving import Memories
+from gaitwright.errors import WrongUse
 from gaitwright.learning.map_books import learned_map_of
 from gaitwright.learning.practice import after_trip
 from gaitwright.learning.teacher import teacher_for
@@ -33,6 +34,7 @@ from gaitwright.skills.chooser import DefaultChooser
 from gaitwright.skills.rule_chooser import RuleChooser
 from gaitwright.skills.situation import FOREST
 from gaitwright.stages import Chooser
+from gaitwright.studio.page_build import ready_page
 
 SECONDS = 90.0
 SCHOOL = 20
@@ -97,6 +99,7 @@ def story(robot: Robot, args: Namespace) -> int:
     """All trips and the school; returns 0 where every trip arrives."""
     out, driven = Path(args.out), Driven()
     remark(FIRST)
+    build_page()
     codes = [first(robot, args, driven)]
     if codes[0] == INTERRUPTED:
         return INTERRUPTED
@@ -110,6 +113,15 @@ def story(robot: Robot, args: Namespace) -> int:
     conclude(driven, args)
     draw_map(out, FOURTH.place(args.seed))
     return max(codes)
+
+
+def build_page() -> None:
+    """What replays are made of, where it can be had: in a clone it is built once, in seconds."""
+    try:
+        with working("building the page of replays (first run only)", worth_a_line=None):
+            ready_page(lambda told: None)
+    except WrongUse as error:
+        remark(f"replays are left out: {str(error).splitlines()[0]}")
 
 
 # --- trips -----------------------------------------------------------------------------------------

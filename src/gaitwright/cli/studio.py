@@ -10,6 +10,7 @@ from gaitwright.cli.console import remark, working
 from gaitwright.cli.output import check_json, settled, write_json
 from gaitwright.errors import WrongUse
 from gaitwright.studio.page_build import ready_page
+from gaitwright.studio.robot_process import RobotProcess
 from gaitwright.studio.setup import Setup
 
 NEEDED = ("starlette", "uvicorn", "websockets")
@@ -20,16 +21,16 @@ def run(args: Namespace) -> int:
     lacking = [name for name in NEEDED if not importlib.util.find_spec(name)]
     if lacking:
         raise WrongUse(f"the studio needs {', '.join(lacking)}: `pip install 'gaitwright[studio]'`")
-    from gaitwright.studio.serving import Serving, serve  # noqa: PLC0415 - an extra
-
     check_json(args.json)
     folder = settled(args.out, "--out")
-    with working("looking for the page", worth_a_line=None):
-        page = ready_page(remark)
     book = Path(args.skillbook) if args.skillbook else folder / BOOK
     setup = Setup(args.robot, args.scene, args.seed, args.sight, args.driver)
-    what = Serving(setup, book, folder, page, args.host, args.port, begins=args.skillbook is None)
-    serve(what, lambda address: tell(address, args))
+    with RobotProcess(setup, book, folder, begins=args.skillbook is None) as robot:
+        from gaitwright.studio.serving import Serving, serve  # noqa: PLC0415 - an extra
+
+        with working("looking for the page", worth_a_line=None):
+            page = ready_page(remark)
+        serve(robot, Serving(folder, page, args.host, args.port), lambda address: tell(address, args))
     return 0
 
 

@@ -33,6 +33,7 @@ from gaitwright.record.recording import INTERRUPTED, Recording, Report
 from gaitwright.session import DT, Push, Session, record, scene_for, walk
 from gaitwright.signals import Mission
 from gaitwright.stages import Chooser, Plant
+from gaitwright.studio.page_build import built_page
 
 WITHOUT_MECHANICS = ("kinematic", "programmed")
 """Drivers that say where the robot goes, beside their torques: what plant `kinematic` follows."""
@@ -293,6 +294,13 @@ def illustrate(setting: Setting, recording: Recording, folder: Path) -> list[tup
             from gaitwright.pictures import trip_picture  # noqa: PLC0415 - an extra, and slow to import
 
             files.append(("picture", str(trip_picture(recording, setting.scene, folder / "trip.png"))))
+    page = built_page()
+    if page is not None:
+        with working("writing the replay", worth_a_line=False):
+            from gaitwright.studio.replay import write_replay  # noqa: PLC0415 - only here
+
+            replay = write_replay(recording, folder / "replay.html", page, setting.scene)
+            files.append(("replay, opens by a double click", str(replay)))
     return files
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from gaitwright.errors import WrongUse
 from gaitwright.gait.kinds import KINDS
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle
-from gaitwright.gait.obstacle import NOTHING, ahead_of
+from gaitwright.gait.obstacle import NOTHING, SLOPE, ahead_of
 from gaitwright.gait.operators import Operator
 from gaitwright.ground.elevation import height_at
 from gaitwright.learning.operator_lessons import RAISED, Edit, learned_from
@@ -50,6 +50,7 @@ def next_ahead(walk: Walk, leg: int, session: Session) -> Obstacle | None:
     yaw = heading(rotation(sensed.orientation_wb))
     way = np.array([math.cos(yaw), math.sin(yaw)])
     stride = max(walk.stride, SHORTEST * robot.height)
+    slope = None  # a thing to get over comes first: what is seen of it in part may look like a slope
     for far in np.arange(0.0, FAR * robot.body_length, LOOKS * stride):
         origin = foot + np.append(far * way, 0.0)
         known = float(height_at(ground.footholds, *origin[:2]))
@@ -57,8 +58,11 @@ def next_ahead(walk: Walk, leg: int, session: Session) -> Obstacle | None:
         to = origin[:2] + stride * way
         kind, size = ahead_of(ground.footholds, origin, *to, robot.foot_radius[leg], robot.height)
         if kind != NOTHING:
-            return Obstacle(KINDS[kind], min(LARGER * float(size), robot.height))
-    return None
+            obstacle = Obstacle(KINDS[kind], min(LARGER * float(size), robot.height))
+            if kind != SLOPE:
+                return obstacle
+            slope = slope or obstacle
+    return slope
 
 
 def operator_from(curve: CycleCurve, points: Rows, obstacle: Obstacle, who: str) -> Operator | Refusal:

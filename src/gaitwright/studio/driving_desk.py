@@ -22,6 +22,7 @@ class DrivingDesk:
     def __init__(self, teaching: TeachingDesk, say: Callable[[dict[str, Any]], None]) -> None:
         self.teaching, self.say = teaching, say
         self.mode: m.Mode = "plan"
+        self.score = Score()
         self.does: dict[type[m.Message], Callable[[Any], dict[str, Any] | None]] = {
             m.Go: self.go, m.Steer: self.steer, m.Stand: self.stand, m.Skill: self.skill,
             m.Drive: self.drive, m.SetMode: self.set_mode, m.Abort: self.abort, m.Push: self.push,
@@ -29,37 +30,49 @@ class DrivingDesk:
         }  # fmt: skip
 
     def attend(self, run: LiveRun) -> None:
-        """From now on it is about this run."""
-        self.run, self.score = run, Score()
+        """From now on it is about this run; a motion that was composed can be played in it, too."""
+        if self.score.begun is not None:
+            self.score.end(self.run.time)
+        self.score.stop()
+        self.run = run
         self.steered_at: float | None = None
         """When the person who steers was heard last; `None`: nobody steers."""
 
     def status(self) -> dict[str, Any]:
         """What is so now."""
-        composing, playing = self.score.begun is not None, bool(self.score.playing)
-        words = len(self.score.words)
-        return {"mode": self.mode, "composing": composing, "playing": playing, "composed": words}
+        score, now = self.score, self.run.time
+        return {
+            "mode": self.mode,
+            "composing": score.begun is not None,
+            "playing": score.is_playing,
+            "composed": len(score.words),
+            "composed_seconds": round(score.seconds(now), 2),
+            "played_seconds": round(score.played(now), 2),
+        }
 
     # --- time ---------------------------------------------------------------------------------------
     def watch_over(self) -> None:
         """Stops a robot whose steering person is gone."""
         is_heard = self.steered_at is None or monotonic() - self.steered_at <= WATCHDOG
-        if not is_heard and not self.score.playing:
+        if not is_heard and not self.score.is_playing:
             self.stand(m.Stand())
 
     def after(self) -> None:
         """To be called after every lap: does what a composed motion asks for now; what cannot be done ends
-        it."""
-        if not self.score.playing:
+        it. At its end the robot stands, unless it is on its way to a goal."""
+        if not self.score.is_playing:
             return
         for message in self.score.due(self.run.time):
             try:
                 self.does[type(message)](message)
             except WrongUse as error:
-                self.score.playing = []
+                self.score.stop()
                 self.say({"say": "remark", "sentence": f"the motion ends here: {error}"})
                 return
-        if not self.score.playing:
+        if self.score.is_played(self.run.time):
+            self.score.stop()
+            if not isinstance(self.score.words[-1][1], m.Go):
+                self.stand(m.Stand())
             self.say({"say": "remark", "sentence": "the motion was played"})
 
     # --- what is asked ------------------------------------------------------------------------------
@@ -81,10 +94,11 @@ class DrivingDesk:
             self.run.let_choose()
             return
         # Of an apprentice: what she does here may be right here. She says whether.
-        proposed = self.teaching.proposed(said.name) if self.mode == "apprentice" else None
+        word = m.Right(skill=said.name, speed=said.speed)
+        shown = self.teaching.right(word) if self.mode == "apprentice" else None
         self.run.hold(said.name, said.speed)
-        if proposed is not None:
-            self.say({"say": "tried", "proposed": True, **proposed})
+        if shown is not None:
+            self.teaching.propose(shown)
 
     def drive(self, said: m.Drive) -> None:
         self.run.drive(said.driver)
@@ -93,7 +107,8 @@ class DrivingDesk:
         self.mode = said.mode
 
     def abort(self, said: m.Abort) -> None:
-        self.steered_at, self.score.playing = None, []
+        self.steered_at = None
+        self.score.stop()
         self.run.abort()
 
     def push(self, said: m.Push) -> None:
@@ -103,7 +118,7 @@ class DrivingDesk:
         if said.on:
             self.score.begin(self.run.time)
             return None
-        return {"words": self.score.end()}
+        return {"words": self.score.end(self.run.time)}
 
     def play(self, said: m.Play) -> dict[str, Any]:
         return {"seconds": self.score.play(self.run.time)}

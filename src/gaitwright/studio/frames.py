@@ -17,6 +17,7 @@ from gaitwright.gait.state import GaitMemory
 from gaitwright.locomotion import Lap
 from gaitwright.numerics.geometry import quaternion_of
 from gaitwright.numerics.packing import Layout
+from gaitwright.studio.setup import who_drives
 
 KIND, PAUSED = 1, 1
 HEADER = struct.Struct("<BBHIdd")
@@ -64,7 +65,7 @@ def columns_of(legs: int) -> list[dict[str, str | int]]:
 def row_of(lap: Lap, memories: Memories, drivers: Sequence[str]) -> Float[np.ndarray, "numbers"]:
     """What is drawn of a lap. `memories`: what the robot remembers after it."""
     sensed, target, command = lap.sensed, lap.target, lap.command
-    gait, who = memories.gait, lap.call.driver
+    gait, who = memories.gait, who_drives(lap.call.driver)
     footholds = gait.state.foothold if isinstance(gait, GaitMemory) else np.full_like(target.feet_w, np.nan)
     return LAYOUT.pack(
         FrameRow(

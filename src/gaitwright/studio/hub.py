@@ -13,8 +13,8 @@ from gaitwright.errors import WrongUse
 from gaitwright.studio.messages import Anyone, Release, Reset, Take, id_of, message_of
 
 MOST_ANSWERS, MOST_WATCHERS = 256, 64
-KINDS = ("hello", "world", "boxes", "rules", "status", "scan", "seen", "moved", "curve", "remark", "closed")
-"""What is said to everybody; one who comes later is told the last of each, in this order."""
+KINDS = ("hello", "world", "boxes", "rules", "status", "scan", "seen", "moved", "curve", "tried", "closed")
+"""Of what is said to everybody, one who comes later is told the last of each of these, in this order."""
 
 
 class Member:

@@ -101,6 +101,8 @@ class LiveRun:
     def step(self) -> Lap | None:
         """One lap; `None` where the run is over."""
         lap = self.session.step() if self.lowering is None else next(self.lowering, None)
+        if self.held and self.session.outcome is not None:
+            self.let_choose()
         if lap is not None:
             self.lap = lap
             if self.recorder is not None:
@@ -129,6 +131,8 @@ class LiveRun:
         guidance = self.session.mind.mission.guidance
         if isinstance(guidance, Steering) and guidance.velocities == ((forward, left, turn),):
             return  # asked again, so that somebody is heard
+        if self.held:
+            self.let_choose()
         self.session.steer(forward, left, turn)
 
     def abort(self) -> None:

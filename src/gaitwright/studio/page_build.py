@@ -25,15 +25,24 @@ def ready_page(tell: Callable[[str], None]) -> Path:
 
     Raises `WrongUse` where it is neither there nor to be made.
     """
+    page = built_page()
+    if page is not None:
+        return page
     if not (SOURCES / "package.json").is_file():
-        if (PAGE / "index.html").is_file():
-            return PAGE
         raise WrongUse("this installation lacks the studio's page: install gaitwright from a wheel")
-    wanted, stamp = digest(SOURCES), PAGE / STAMP
-    if not (stamp.is_file() and stamp.read_text(encoding="utf-8") == wanted):
-        build(tell)
-        stamp.write_text(wanted, encoding="utf-8")
+    wanted = digest(SOURCES)
+    build(tell)
+    (PAGE / STAMP).write_text(wanted, encoding="utf-8")
     return PAGE
+
+
+def built_page() -> Path | None:
+    """The folder of the page as it is here now; `None` where it is not built, or of older sources."""
+    if not (PAGE / "index.html").is_file():
+        return None
+    stamp = PAGE / STAMP
+    is_wheel = not (SOURCES / "package.json").is_file()
+    return PAGE if is_wheel or (stamp.is_file() and stamp.read_text("utf-8") == digest(SOURCES)) else None
 
 
 def build(tell: Callable[[str], None]) -> None:
@@ -73,16 +82,19 @@ def run(command: list[str], what: str) -> None:
 
 
 def environment() -> dict[str, str]:
-    """What npm is told: nothing of its own to say, and no colours."""
-    return {**os.environ, "NO_COLOR": "1", "npm_config_update_notifier": "false", "CI": "1"}
+    """What npm is told: nothing of its own to say, no colours, and not to wait long where nobody answers."""
+    quiet = {"NO_COLOR": "1", "npm_config_update_notifier": "false", "CI": "1"}
+    return {**os.environ, **quiet, "npm_config_fetch_retries": "1", "npm_config_fetch_timeout": "30000"}
 
 
 def digest(folder: Path) -> str:
     """A number of all sources."""
     whole = hashlib.sha256()
-    for path in sorted(folder.rglob("*")):
-        if path.is_file() and not set(path.relative_to(folder).parts) & set(NOT_SOURCES):
-            whole.update(str(path.relative_to(folder)).encode() + b"\0" + path.read_bytes())
+    for place, folders, names in os.walk(folder):
+        folders[:] = sorted(set(folders) - set(NOT_SOURCES))
+        for name in sorted(names):
+            path = Path(place) / name
+            whole.update(path.relative_to(folder).as_posix().encode() + b"\0" + path.read_bytes())
     return whole.hexdigest()
 
 

@@ -26,7 +26,7 @@ from gaitwright.studio.driving_desk import DrivingDesk
 from gaitwright.studio.frames import columns_of, frame_of, row_of
 from gaitwright.studio.live_run import LiveRun
 from gaitwright.studio.recording_desk import RecordingDesk
-from gaitwright.studio.setup import DRIVERS, Setup
+from gaitwright.studio.setup import DRIVERS, Setup, who_drives
 from gaitwright.studio.shown import boxes_shown, scan_shown, seen_shown, things_shown, world_shown
 from gaitwright.studio.status import status_of
 from gaitwright.studio.teaching_desk import TeachingDesk
@@ -100,7 +100,7 @@ class Room:
         lap = self.run.step()
         if lap is None:
             return False
-        self.ticks[lap.call.driver or self.run.driver] += 1
+        self.ticks[who_drives(lap.call.driver or self.run.driver)] += 1
         self.driving.after()
         self.curves.after()
         return True

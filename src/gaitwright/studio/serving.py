@@ -2,14 +2,13 @@
 
 import asyncio
 import json
-import multiprocessing
 import secrets
 import signal
 import socket
 import threading
 from collections.abc import Callable, Coroutine
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import uvicorn
@@ -18,11 +17,10 @@ from gaitwright.errors import BadFile, GaitwrightError, WrongUse
 from gaitwright.studio.hub import Hub
 from gaitwright.studio.messages import MOST_BYTES, Reset
 from gaitwright.studio.recordings import Shelf
+from gaitwright.studio.robot_process import RobotProcess
 from gaitwright.studio.server import LOOPBACK, application
-from gaitwright.studio.setup import EVERYBODY, FROM, Ends, Setup, begin
+from gaitwright.studio.setup import EVERYBODY, FROM, Ends
 
-SETTLES = 10.0
-"""The robot's process may take so long to end [s]."""
 CLOSED = b'{"say":"closed","because":"the process with the robot has ended unexpectedly"}'
 
 
@@ -30,8 +28,6 @@ CLOSED = b'{"say":"closed","because":"the process with the robot has ended unexp
 class Serving:
     """What is served, and where."""
 
-    setup: Setup
-    book: Path
     folder: Path
     """For recordings."""
     page: Path
@@ -39,64 +35,18 @@ class Serving:
     address: str = "127.0.0.1"
     port: int = 0
     """0: any that is free."""
-    token: str = ""
-    """Empty: one is made."""
-    begins: bool = False
-    """Whether a book that is not there is begun."""
+    token: str = field(default_factory=lambda: secrets.token_urlsafe(18))
 
 
-class Robot:
-    """The process with the robot: begun, talked to, begun anew, ended."""
-
-    def __init__(self, what: Serving) -> None:
-        self.what, self.setup = what, what.setup
-        self.begin()
-
-    def begin(self) -> None:
-        """A run from its start."""
-        self.ends, theirs = Ends.pair()
-        book, folder = str(self.what.book), str(self.what.folder)
-        arguments = (theirs, self.setup, book, folder, self.what.begins)
-        context = multiprocessing.get_context("spawn")
-        self.process = context.Process(target=begin, args=arguments, daemon=True)
-        self.process.start()
-        for end in theirs:
-            end.close()
-
-    def again(self, said: Reset) -> None:
-        """Another run in the place of one that has ended."""
-        self.end()
-        given = {name: getattr(said, name) for name in self.setup.__slots__}
-        self.setup = replace(self.setup, **{name: of for name, of in given.items() if of is not None})
-        self.begin()
-
-    def ask(self, who: int, text: bytes) -> None:
-        """Hands on what a page asks."""
-        with suppress(OSError):  # it is gone: what it said last tells so
-            self.ends.send_bytes(FROM.pack(who) + text)
-
-    def end(self) -> None:
-        """Ends it; it keeps what was recorded."""
-        self.ends.tells.close()
-        self.process.join(SETTLES)
-        if self.process.is_alive():
-            self.process.terminate()
-
-
-def serve(what: Serving, opened: Callable[[str], None]) -> None:
+def serve(robot: RobotProcess, what: Serving, opened: Callable[[str], None]) -> None:
     """Serves until it is interrupted. `opened` is told the address as soon as pages can be asked for.
 
     Raises `WrongUse` where the port is taken, and what the robot's process raised where it could not begin.
     """
-    token = what.token or secrets.token_urlsafe(18)
-    robot = Robot(what)
-    try:
-        with bound(what.address, what.port) as place:
-            name = f"[{what.address}]" if ":" in what.address else what.address
-            opened(f"http://{name}:{place.getsockname()[1]}/?token={token}")
-            hub = until_told(served(what, token, robot, place))
-    finally:
-        robot.end()
+    with bound(what.address, what.port) as place:
+        name = f"[{what.address}]" if ":" in what.address else what.address
+        opened(f"http://{name}:{place.getsockname()[1]}/?token={what.token}")
+        hub = until_told(served(robot, what, place))
     if hub is not None and hub.closed and "hello" not in hub.last:
         raise ended(hub.last["closed"])
 
@@ -110,7 +60,7 @@ def until_told(serving: Coroutine[None, None, Hub]) -> Hub | None:
         return None
 
 
-async def served(what: Serving, token: str, robot: Robot, place: socket.socket) -> Hub:
+async def served(robot: RobotProcess, what: Serving, place: socket.socket) -> Hub:
     """Serves on a socket, until it is told to end or the robot's process cannot begin."""
     loop = asyncio.get_running_loop()
     began = False
@@ -129,7 +79,7 @@ async def served(what: Serving, token: str, robot: Robot, place: socket.socket) 
         attend()
 
     hub = Hub(robot.ask, restart)
-    app = application(hub, what.page, Shelf(what.folder), token, LOOPBACK | {what.address})
+    app = application(hub, what.page, Shelf(what.folder), what.token, LOOPBACK | {what.address})
     config = uvicorn.Config(app, log_level="warning", ws_max_size=MOST_BYTES, timeout_graceful_shutdown=1)
     server = uvicorn.Server(config)
     attend()

@@ -10,7 +10,8 @@ from typing import NamedTuple
 FROM = struct.Struct("<I")
 """Goes before all that is sent: who said it, or who is answered; 0: everybody."""
 EVERYBODY = 0
-DRIVERS = ("programmed", "kinematic", "numerical", "learned", "hybrid")
+HYBRID, NUMERICAL = "hybrid", "numerical"
+DRIVERS = ("programmed", "kinematic", NUMERICAL, "learned", HYBRID)
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +24,12 @@ class Setup:
     sight: str = "known"
     """Or "camera": nothing is known but what the robot sees."""
     driver: str = "hybrid"
+
+
+def who_drives(driver: str) -> str:
+    """Who has the joints in a lap by `driver`: where a hybrid does not name the learned controller, it is the
+    numerical one."""
+    return NUMERICAL if driver == HYBRID else driver
 
 
 class Ends(NamedTuple):

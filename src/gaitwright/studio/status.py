@@ -6,6 +6,7 @@ from typing import Any
 from gaitwright.signals import Scan
 from gaitwright.skills.vocabulary import RULE_IN_USE
 from gaitwright.studio.live_run import LiveRun
+from gaitwright.studio.setup import who_drives
 
 
 def status_of(run: LiveRun, ticks: Counter[str]) -> dict[str, Any]:
@@ -17,7 +18,7 @@ def status_of(run: LiveRun, ticks: Counter[str]) -> dict[str, Any]:
         "say": "status",
         "time": round(run.time, 3),
         "driver": run.driver,
-        "controller": (lap.call.driver if lap else call.driver) or run.driver,
+        "controller": who_drives((lap.call.driver if lap else call.driver) or run.driver),
         "skill": call.skill,
         "held": run.held,
         "velocity": [*call.velocity, call.turn],

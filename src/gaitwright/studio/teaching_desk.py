@@ -36,6 +36,8 @@ class TeachingDesk:
         self.live, self.say = LiveLessons(ledger, pupil_of(ledger.book)), say
         self.open: Tried | None = None
         """What was tried and waits to be kept."""
+        self.is_proposed = False
+        """Whether everybody was told of it."""
         self.does: dict[type[m.Message], Callable[[Any], dict[str, Any] | None]] = {
             m.Right: self.right, m.Ok: self.ok, m.Keep: self.keep, m.Back: self.back,
             m.Forget: self.forget, m.Order: self.order, m.Why: self.why,
@@ -43,8 +45,9 @@ class TeachingDesk:
 
     def attend(self, run: LiveRun) -> None:
         """From now on it is about this run."""
-        self.run, self.open = run, None
+        self.run = run
         self.live.seen = []
+        self.settle()
 
     @property
     def rulebook(self) -> Rulebook:
@@ -74,9 +77,17 @@ class TeachingDesk:
             raise unknown("number", said.about, pupil.vocabulary.names)
         return self.tried(self.source.here(), Shown(said.name, action, about=said.about))
 
-    def proposed(self, skill: str) -> dict[str, Any]:
-        """The same of what a person just does."""
-        return self.right(m.Right(skill=skill))
+    def propose(self, shown: dict[str, Any]) -> None:
+        """Tells everybody what a lesson would do that a person gave by doing it; it waits for her word."""
+        self.is_proposed = True
+        self.say({"say": "tried", "proposed": True, **shown})
+
+    def settle(self) -> None:
+        """Nothing waits any more."""
+        self.open = None
+        if self.is_proposed:
+            self.is_proposed = False
+            self.say({"say": "tried", "proposed": False})
 
     def order(self, said: m.Order) -> dict[str, Any]:
         """What it would do to have one rule before another where both could fire: a lesson at the last moment
@@ -93,11 +104,13 @@ class TeachingDesk:
 
     def tried(self, seen: Seen, shown: Shown) -> dict[str, Any]:
         """What a lesson would do; it waits to be kept."""
+        self.settle()
         self.open = self.live.correction(seen, shown, self.source.name)
         return tried_shown(self.open)
 
     def ok(self, said: m.Ok) -> dict[str, Any]:
         """What it does now is right: learned at once."""
+        self.settle()
         self.open = self.live.confirmation(self.source.here(), self.run.robot, self.source.name)
         return self.keep(m.Keep())
 
@@ -105,18 +118,19 @@ class TeachingDesk:
         """Learns what was tried, and drives by it."""
         if self.open is None:
             raise WrongUse("there is nothing to keep: say what is right first")
-        tried, self.open = self.open, None
+        tried = self.open
+        self.settle()
         self.live.keep(tried)
         return self.learned(tried.told.id)
 
     def back(self, said: m.Back) -> None:
         """What was tried is not learned."""
-        self.open = None
+        self.settle()
 
     def forget(self, said: m.Forget) -> dict[str, Any]:
         """Takes a lesson back, the last one where none is named."""
         name, _ = self.live.forget(said.lesson)
-        self.open = None
+        self.settle()
         return self.learned(name)
 
     def learned(self, lesson: str) -> dict[str, Any]:

@@ -131,9 +131,10 @@ async def streamed(
 
 def serve_alone(ends: Ends, tells: Connection, page: Path) -> None:
     """The studio's server in a process of its own, its robots elsewhere."""
-    from gaitwright.studio.serving import Robot, Serving, bound, served  # noqa: PLC0415 - an extra
+    from gaitwright.studio.robot_process import RobotProcess  # noqa: PLC0415 - in this process alone
+    from gaitwright.studio.serving import Serving, bound, served  # noqa: PLC0415
 
-    class Elsewhere(Robot):
+    class Elsewhere(RobotProcess):
         """A robot whose other end is in another process already."""
 
         def begin(self) -> None:
@@ -141,8 +142,8 @@ def serve_alone(ends: Ends, tells: Connection, page: Path) -> None:
 
     with bound("127.0.0.1", 0) as place:
         tells.send(place.getsockname()[1])
-        what = Serving(Setup(), Path(), Path(), page)
-        asyncio.run(served(what, TOKEN, Elsewhere(what), place))
+        robot, what = Elsewhere(Setup(), Path(), Path()), Serving(Path(), page, token=TOKEN)
+        asyncio.run(served(robot, what, place))
 
 
 def cpu_time(pid: int) -> float:

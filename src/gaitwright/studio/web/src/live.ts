@@ -1,11 +1,12 @@
 // The live studio: one WebSocket, which is opened again when it is lost.
 
-import { signal, type Signal } from "@preact/signals";
+import { batch, signal, type Signal } from "@preact/signals";
 import { parseFrame } from "./frame";
 import { History } from "./history";
 import { Layout } from "./layout";
 import type {
-  Answer, Command, Curves, FromServer, Hello, Moved, Proposed, Recordings, Remark, Role, Rules, Scan, Seen, Status, World,
+  Answer, Box, Command, Curves, FromServer, Hello, Moved, Proposed, Recordings, Remark, Role, Rules, Scan, Seen,
+  Status, World,
 } from "./protocol";
 import { Smooth } from "./smooth";
 import type { Link, Source } from "./source";
@@ -14,6 +15,8 @@ import { sameGround } from "./view/same";
 const VERSION = 1;
 const ANSWER_WITHIN = 15_000;
 const NO_ENTRY = "no connection: is this the whole address that the studio printed, and is it still open?";
+/** Panels ask these by themselves, and show what is refused: the bar below has nothing to do with it. */
+const LOOKS = new Set<Command["do"]>(["why", "curve", "recordings"]);
 const RETRY = [500, 1000, 2000, 4000];
 
 /** The address of `/live` next to this page, with the token of its own address. */
@@ -33,6 +36,7 @@ export class Live implements Source {
   readonly role = signal<Role>({ say: "role", role: "watcher", watchers: 0, has_driver: false });
   readonly closed = signal("");
   readonly world = signal<World | null>(null);
+  readonly boxes = signal<Box[]>([]);
   readonly status = signal<Status | null>(null);
   readonly moved = signal<Moved | null>(null);
   readonly scan = signal<Scan | null>(null);
@@ -40,8 +44,8 @@ export class Live implements Source {
   readonly rules = signal<Rules | null>(null);
   readonly curve = signal<Curves | null>(null);
   readonly tried = signal<Proposed | null>(null);
-  readonly remark = signal<Remark | null>(null);
   readonly recordings = signal<Recordings | null>(null);
+  readonly remark = signal<Remark | null>(null);
   readonly refusal = signal("");
   readonly layout = signal<Layout | null>(null);
   readonly beat = signal(0);
@@ -56,8 +60,8 @@ export class Live implements Source {
     rules: this.rules,
     curve: this.curve,
     tried: this.tried,
-    remark: this.remark,
     recordings: this.recordings,
+    remark: this.remark,
   };
   private socket: WebSocket | null = null;
   private smooth: Smooth | null = null;
@@ -94,6 +98,8 @@ export class Live implements Source {
     if (this.socket?.readyState !== WebSocket.OPEN) {
       return Promise.resolve(this.refuse("the studio is not connected"));
     }
+    const looks = LOOKS.has(command.do);
+    if (!looks) this.refusal.value = "";
     const id = this.nextId++;
     this.socket.send(JSON.stringify({ ...command, id }));
     return new Promise((resolve) => {
@@ -103,6 +109,7 @@ export class Live implements Source {
       }, ANSWER_WITHIN);
       this.waiting.set(id, (answer) => {
         clearTimeout(timer);
+        if (!answer.done && !looks) this.refuse(answer.because);
         resolve(answer);
       });
     });
@@ -113,6 +120,7 @@ export class Live implements Source {
   }
 
   private refuse(because: string): Answer {
+    this.refusal.value = ""; // the same sentence is said again, too
     this.refusal.value = because;
     return { done: false, because };
   }
@@ -134,8 +142,9 @@ export class Live implements Source {
       this.link.value = "lost";
       this.role.value = { ...this.role.peek(), role: "watcher" };
       if (this.failures >= 2 && !this.hello.peek()) this.closed.value = NO_ENTRY;
-      for (const answer of this.waiting.values()) answer({ done: false, because: "the connection was lost" });
+      const left = [...this.waiting.values()];
       this.waiting.clear();
+      for (const answer of left) answer({ done: false, because: "the connection was lost" });
       setTimeout(() => this.open(), RETRY[Math.min(this.failures++, RETRY.length - 1)]);
     };
   }
@@ -158,13 +167,14 @@ export class Live implements Source {
       case "hello":
         this.arrange(new Layout(message.columns));
         this.hello.value = message;
+        this.closed.value = ""; // where a run had ended, another one begins
         if (message.version !== VERSION) this.closed.value = "the studio is newer than this page: load it again";
         break;
       case "world":
         this.settle(message);
         break;
       case "boxes":
-        if (this.world.value) this.world.value = { ...this.world.value, boxes: message.boxes };
+        this.boxes.value = message.boxes;
         break;
       case "closed":
         this.closed.value = message.because;
@@ -183,7 +193,7 @@ export class Live implements Source {
     if (known) known.value = what;
   }
 
-  /** Another world; where only its boxes were moved, all else is kept. */
+  /** Another world; where only its boxes are others, all else is kept. */
   private settle(world: World): void {
     if (!sameGround(world, this.world.peek())) {
       this.smooth?.clear();
@@ -191,7 +201,10 @@ export class Live implements Source {
       this.seen.value = this.scan.value = null;
     }
     this.moved.value = null;
-    this.world.value = world;
+    batch(() => {
+      this.world.value = world;
+      this.boxes.value = world.boxes;
+    });
   }
 
   /** Columns as told in `hello`, which comes again after a reconnection or another role. */
@@ -204,16 +217,16 @@ export class Live implements Source {
 
   private answered(message: Extract<FromServer, { say: "done" | "refused" }>): void {
     if (message.say === "refused") {
-      this.resolve(message.id, this.refuse(message.because));
+      if (typeof message.id !== "number") this.refuse(message.because); // of what no answer was awaited
+      this.resolve(message.id, { done: false, because: message.because });
       return;
     }
-    this.refusal.value = "";
     if (Array.isArray(message.recordings)) this.know("recordings", { names: message.recordings });
     this.resolve(message.id, { done: true, more: message });
   }
 
-  private resolve(id: number | undefined, answer: Answer): void {
-    if (id === undefined) return;
+  private resolve(id: number | null | undefined, answer: Answer): void {
+    if (typeof id !== "number") return;
     this.waiting.get(id)?.(answer);
     this.waiting.delete(id);
   }

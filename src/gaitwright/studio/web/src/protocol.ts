@@ -48,6 +48,12 @@ export interface Status {
   pace: number;
   real_time: number;
   mode: Mode;
+  /** A motion is being composed, or played; its words and seconds, and how much of it was played [s]. */
+  composing?: boolean;
+  playing?: boolean;
+  composed?: number;
+  composed_seconds?: number;
+  played_seconds?: number;
   /** the driver asked for */
   driver: string;
   /** who has the joints now */
@@ -70,10 +76,6 @@ export interface Status {
   arrived: boolean;
   fell: boolean;
   faults: string[];
-  /** Whether a motion is being composed, or played, and how many words it has. */
-  composing?: boolean;
-  playing?: boolean;
-  composed?: number;
   recording: boolean;
   /** of the recording so far [s] */
   recorded?: number;
@@ -82,6 +84,18 @@ export interface Status {
   held?: string;
   setup?: { robot: string; scene: string; seed: number; sight: "known" | "camera" };
   share: Record<string, number>;
+}
+
+/** Where the boxes are now: these, and no others. */
+export interface Boxes {
+  say: "boxes";
+  boxes: Box[];
+}
+
+/** Something that happened, in a sentence. */
+export interface Remark {
+  say: "remark";
+  sentence: string;
 }
 
 export interface Moved {
@@ -161,22 +175,8 @@ export interface Operator {
   taught: string;
 }
 
-/** Where the boxes are now, without all the rest of the world. */
-export interface Boxes {
-  say: "boxes";
-  boxes: Box[];
-}
-
-/** Something that nobody asked for, in a sentence. */
-export interface Remark {
-  say: "remark";
-  sentence: string;
-}
-
-export interface Proposed extends Tried {
-  say: "tried";
-  proposed: boolean;
-}
+/** What a person showed an apprentice waits for her word, or nothing does any more. */
+export type Proposed = { say: "tried" } & (({ proposed: true } & Tried) | { proposed: false });
 
 export interface Recordings {
   say: "recordings";
@@ -185,19 +185,20 @@ export interface Recordings {
 
 export interface Done {
   say: "done";
-  id: number;
+  id: number | null;
   /** what else is answered */
   [more: string]: unknown;
 }
 
 export interface Refused {
   say: "refused";
-  id?: number;
+  id?: number | null;
   because: string;
 }
 
 export type FromServer =
-  | Hello | Role | Closed | World | Boxes | Remark | Status | Moved | Scan | Seen | Rules | Curves | Proposed | Recordings | Done | Refused;
+  | Hello | Role | Closed | World | Boxes | Remark | Status | Moved | Scan | Seen | Rules | Curves | Proposed
+  | Recordings | Done | Refused;
 
 export type Command =
   | { do: "go"; x: number; y: number; then?: boolean }
@@ -212,8 +213,7 @@ export type Command =
   | { do: "place"; x: number; y: number; lx: number; ly: number; height: number; yaw: number }
   | { do: "move"; thing: string | number; x: number; y: number; yaw?: number }
   | { do: "remove"; thing: string | number }
-  | { do: "record"; on: boolean }
-  | { do: "compose"; on: boolean }
+  | { do: "compose" | "record"; on: boolean }
   | { do: "right"; skill: string; speed?: number; turn?: number; about?: string; name?: string }
   | { do: "forget"; lesson?: string }
   | { do: "why"; rule?: string }
@@ -221,8 +221,8 @@ export type Command =
   | { do: "curve"; kind: CurveKind; skill?: string; leg: number }
   | { do: "edit"; kind: CurveKind; skill: string; leg: number; points: number[][]; mirror: boolean; obstacle?: boolean }
   | {
-      do: "stand" | "pause" | "resume" | "abort" | "take" | "release" | "keep" | "back" | "ok" | "undo" | "redo"
-        | "save" | "play" | "recordings";
+      do: "stand" | "play" | "pause" | "resume" | "abort" | "take" | "release" | "keep" | "back" | "ok" | "undo" | "redo"
+        | "save" | "recordings";
     };
 
 /** `more`: what came with it. */

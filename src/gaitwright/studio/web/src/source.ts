@@ -4,7 +4,7 @@ import type { ReadonlySignal } from "@preact/signals";
 import type { History } from "./history";
 import type { Layout } from "./layout";
 import type {
-  Answer, Command, Curves, Hello, Moved, Proposed, Recordings, Remark, Role, Rules, Scan, Seen, Status, World,
+  Answer, Box, Command, Curves, Hello, Moved, Proposed, Recordings, Remark, Role, Rules, Scan, Seen, Status, World,
 } from "./protocol";
 
 export type Link = "connecting" | "open" | "lost";
@@ -17,17 +17,19 @@ export interface Source {
   /** Why the studio has ended; "" while it has not. */
   readonly closed: ReadonlySignal<string>;
   readonly world: ReadonlySignal<World | null>;
+  /** The boxes of the world as they are now. */
+  readonly boxes: ReadonlySignal<Box[]>;
   readonly status: ReadonlySignal<Status | null>;
   readonly moved: ReadonlySignal<Moved | null>;
   readonly scan: ReadonlySignal<Scan | null>;
   readonly seen: ReadonlySignal<Seen | null>;
   readonly rules: ReadonlySignal<Rules | null>;
   readonly curve: ReadonlySignal<Curves | null>;
-  /** What was said last without being asked. */
-  readonly remark: ReadonlySignal<Remark | null>;
   /** What a person showed an apprentice last. */
   readonly tried: ReadonlySignal<Proposed | null>;
   readonly recordings: ReadonlySignal<Recordings | null>;
+  /** What happened last, for the bar below. */
+  readonly remark: ReadonlySignal<Remark | null>;
   /** The last refusal, for the bar below; "" where there is none. */
   readonly refusal: ReadonlySignal<string>;
 

@@ -74,7 +74,7 @@ export class BoxDrag implements Drag {
   private allowed() {
     const same = ({ id, lx }: { id: Box["id"]; lx?: number }) => id === this.start.id && lx === undefined;
     const moved = this.source.moved.peek()?.things.find(same);
-    return moved ?? this.source.world.peek()?.boxes.find(({ id }) => id === this.start.id) ?? this.start;
+    return moved ?? this.source.boxes.peek().find(({ id }) => id === this.start.id) ?? this.start;
   }
 
   private away(): void {

@@ -100,7 +100,7 @@ function hold(source: Source, engine: Engine, place: HTMLElement, rig: Rig): () 
   const leave = () => ghost.hide();
   const light = effect(() => {
     const id = chosen.value;
-    source.world.value; // boxes that are new do not know it
+    source.boxes.value; // boxes that are new do not know it
     engine.scenery?.boxes.light(id);
   });
   place.addEventListener("pointerdown", down);

@@ -6,6 +6,7 @@ import { skillColour } from "../ui/colours";
 import { number, Section, Slider, Switch } from "../ui/controls";
 import { remembered } from "../ui/remembered";
 import { listenToKeys } from "./keys";
+import { Motion } from "./motion";
 import { listenToPad, padName } from "./pad";
 import { Stick } from "./stick";
 import { full, held, Steering } from "./steering";
@@ -37,6 +38,7 @@ export function DrivePanel({ source }: { source: Source }) {
   const watching = !drives(source);
   return (
     <>
+      {source.status.value?.mode === "guide" && <Motion source={source} watching={watching} />}
       <Section title="Steer" aside={<Asked source={source} />}>
         <div class="steer">
           <Stick steering={steering} disabled={watching} />

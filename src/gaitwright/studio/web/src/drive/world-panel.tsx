@@ -126,8 +126,8 @@ function NewBox({ watching }: { watching: boolean }) {
 }
 
 function ChosenBox({ source, watching }: { source: Source; watching: boolean }) {
-  const box = source.world.value?.boxes.find(({ id }) => id === chosen.value);
-  const count = source.world.value?.boxes.length ?? 0;
+  const box = source.boxes.value.find(({ id }) => id === chosen.value);
+  const count = source.boxes.value.length;
   return (
     <Section title="Boxes" aside={`${count}`}>
       {box ? (

@@ -30,14 +30,14 @@ export function paint(what: What, painting: Painting): void {
   if (what === "true") {
     const ground = truth.ground(painting.theme);
     if (ground) lay(painting, ground.picture, ground.place);
-    for (const { points, loose } of truth.outlines(source.moved.peek())) {
+    for (const { points, loose } of truth.outlines(source.boxes.peek(), source.moved.peek())) {
       context.fillStyle = `color-mix(in srgb, ${colour(loose ? "--warn" : "--ink")} 26%, transparent)`;
       context.fill(shape(frame, points, true));
       stroke(painting, points, "--faint", 1, true);
     }
   } else {
     for (const tile of learned.tiles.values()) layTile(painting, tile, truth.range);
-    for (const { points } of truth.outlines(source.moved.peek())) stroke(painting, points, "--faint", 0.7, true, [3, 2]);
+    for (const { points } of truth.outlines(source.boxes.peek(), source.moved.peek())) stroke(painting, points, "--faint", 0.7, true, [3, 2]);
     for (const way of learned.walked) stroke(painting, way, "--accent", 1.5);
     for (const outline of learned.obstacles) stroke(painting, outline, "--bad", 1.5, true);
     for (const [x0, y0, x1, y1] of learned.walls) stroke(painting, [[x0, y0], [x1, y1]], "--bad", 2);

@@ -60,18 +60,19 @@ export class Truth {
     return made;
   }
 
-  outlines(moved: Moved | null): Outline[] {
+  /** `boxes`: where they are now. */
+  outlines(boxes: readonly Box[], moved: Moved | null): Outline[] {
     const world = this.world;
     if (!world) return [];
     const at = new Map((moved?.things ?? []).map((thing) => [thing.id, thing]));
-    const boxes = world.boxes.map((box) => {
+    const outlined = boxes.map((box) => {
       const now = at.get(box.id);
       at.delete(box.id);
       return { points: corners({ ...box, ...now }), loose: !box.fixed };
     });
     const things = [...at.values()].map(({ lx = 0.3, ly = 0.3, ...thing }) => ({ points: corners({ lx, ly, ...thing }), loose: true }));
     const spheres = world.spheres.map(({ x, y, radius }) => ({ points: circle(x, y, radius), loose: false }));
-    return [...boxes, ...things, ...spheres, ...this.hulls.map((points) => ({ points, loose: false }))];
+    return [...outlined, ...things, ...spheres, ...this.hulls.map((points) => ({ points, loose: false }))];
   }
 }
 

@@ -5,7 +5,7 @@ import { Blend } from "../blend";
 import { fromBase64 } from "../bytes";
 import { History } from "../history";
 import { Layout } from "../layout";
-import type { Answer, Embedded, Hello, Moved, ReplayEvent, Role, Status, World } from "../protocol";
+import type { Answer, Box, Embedded, Hello, Moved, ReplayEvent, Role, Status, World } from "../protocol";
 import type { Link, Source } from "../source";
 import type { Clock } from "./clock";
 
@@ -16,6 +16,7 @@ export class Player implements Source {
   readonly link = signal<Link>("open");
   readonly hello: ReadonlySignal<Hello>;
   readonly world: ReadonlySignal<World>;
+  readonly boxes: ReadonlySignal<Box[]>;
   readonly status: ReadonlySignal<Status>;
   readonly layout: ReadonlySignal<Layout>;
   readonly role = signal<Role>({ say: "role", role: "watcher", watchers: 0, has_driver: false });
@@ -41,6 +42,7 @@ export class Player implements Source {
     const drivers = recording.drivers;
     this.layout = signal(layout);
     this.world = signal(recording.world);
+    this.boxes = signal(recording.world.boxes);
     this.blend = new Blend(layout);
     const count = Math.min(recording.count, Math.floor(data.length / layout.width));
     this.rows = new History(layout.width, layout.at("time"), Infinity, Math.max(1, count));

@@ -1,6 +1,6 @@
 // The bar below: time and its pace, what the robot says, recording, start over, abort.
 
-import { effect, signal } from "@preact/signals";
+import { effect, type Signal, signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { drives, type Source } from "../source";
 import { number, Segmented } from "../ui/controls";
@@ -74,22 +74,34 @@ export function BottomBar({ source }: { source: Source }) {
   );
 }
 
-const REFUSAL_STAYS = 6000;
+const STAYS = 6000;
 const refusal = signal("");
+const remark = signal("");
 
-/** What the robot, or the studio, has to say: a refusal, else why it stands or ended, else why this skill. */
+/** Shows a sentence for some seconds. */
+function forAWhile(place: Signal<string>, sentence: () => string): () => void {
+  let timer = 0;
+  return effect(() => {
+    place.value = sentence();
+    clearTimeout(timer);
+    if (place.peek()) timer = window.setTimeout(() => (place.value = ""), STAYS);
+  });
+}
+
+/** What the robot, or the studio, has to say: a refusal, else what happened, else why it stands or ended, else why this skill. */
 function Message({ source }: { source: Source }) {
   useEffect(() => {
-    let timer = 0;
-    return effect(() => {
-      refusal.value = source.refusal.value;
-      clearTimeout(timer);
-      if (source.refusal.value) timer = window.setTimeout(() => (refusal.value = ""), REFUSAL_STAYS);
-    });
+    const stops = [
+      forAWhile(refusal, () => source.refusal.value),
+      forAWhile(remark, () => source.remark.value?.sentence ?? ""),
+    ];
+    return () => {
+      for (const stop of stops) stop();
+    };
   }, [source]);
   const status = source.status.value;
   const bad = source.closed.value || refusal.value || (status?.fell ? status.over : "") || status?.halt || status?.no_way || "";
-  const text = bad || status?.over || status?.pause || status?.outcome || status?.because || "";
+  const text = bad || remark.value || status?.over || status?.pause || status?.outcome || status?.because || "";
   return (
     <span class={`message ${bad ? "bad" : ""}`} title={text} data-testid="message">
       {text}

@@ -3,7 +3,7 @@
 import type { Mode } from "../protocol";
 import { drives, type Source } from "../source";
 import { driverColour, skillColour } from "../ui/colours";
-import { Segmented, Select } from "../ui/controls";
+import { number, Segmented, Select } from "../ui/controls";
 import { Icon } from "../ui/icons";
 import { switchTheme, theme } from "./theme";
 
@@ -17,6 +17,7 @@ export function TopBar({ source }: { source: Source }) {
         {world && world.robots.length > 0 && <span class="faint"> · {nameOf(world.robots)}</span>}
       </span>
       <Authority source={source} />
+      <Composing source={source} />
       <span class="spring" />
       {source.kind === "live" && <Choices source={source} />}
       {source.kind === "live" && <LinkState source={source} />}
@@ -53,6 +54,19 @@ function Authority({ source }: { source: Source }) {
         </span>
       )}
     </div>
+  );
+}
+
+/** That what a person asks for is being noted, or played back. */
+function Composing({ source }: { source: Source }) {
+  const status = source.status.value;
+  if (!status?.composing && !status?.playing) return null;
+  const done = number(status.composing ? status.composed_seconds : status.played_seconds, 1);
+  return (
+    <span class={`composing ${status.composing ? "on" : ""}`} data-testid="composing">
+      <i />
+      {status.composing ? `composing ${done} s` : `playing ${done} of ${number(status.composed_seconds, 1)} s`}
+    </span>
   );
 }
 

@@ -5,7 +5,6 @@ import type { Status } from "../protocol";
 import { drives, type Source } from "../source";
 import { skillColour } from "../ui/colours";
 import { number, Section } from "../ui/controls";
-import { Compose } from "./compose";
 import { Form } from "./form";
 import { Outcome } from "./outcome";
 import { confirm, learned, object, refused, takeBack } from "./teaching";
@@ -23,7 +22,6 @@ export function TeachPanel({ source }: { source: Source }) {
   return (
     <div class="teach">
       {!driving && <p class="banner">You watch; who drives can teach.</p>}
-      {status.mode === "guide" && <Compose source={source} status={status} driving={driving} />}
       {status.mode === "apprentice" ? (
         <Proposal source={source} status={status} driving={driving} otherwise={otherwise} />
       ) : (

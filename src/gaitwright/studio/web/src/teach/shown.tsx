@@ -6,10 +6,16 @@ import { drives, type Source } from "../source";
 import { drop, keep, propose, proposed, tried } from "./teaching";
 import "./teach.css";
 
+/** So many lines of what would be learned; the others under “Teach”. */
+const MOST = 3;
+
+const times = (count: number) => (count === 1 ? "one stretch of this run" : `${count} stretches of this run`);
+
 export function Shown({ source }: { source: Source }) {
   const told = source.tried.value;
   useEffect(() => {
-    if (told) propose(told, told.proposed);
+    if (told?.proposed) propose(told, true);
+    else if (proposed.peek()) propose(null, false);
   }, [told]);
   const now = tried.value;
   if (!now || !proposed.value) return null;
@@ -20,13 +26,19 @@ export function Shown({ source }: { source: Source }) {
       <p>
         <strong>Is {now.sentence.replace(/ is right here$/, "")} right here?</strong>
       </p>
+      {now.moves.slice(0, MOST).map((line) => (
+        <p key={line} class="shown-line" title={line}>
+          {line}
+        </p>
+      ))}
       <p class={broken || !now.followed ? "warn" : "faint"}>
         {now.followed ? "It would do so from now on" : "It would still do something else here"}
+        {now.stretches.length > 0 && `; it would have decided otherwise in ${times(now.stretches.length)}`}
         {broken > 0 && `, and no longer follow ${broken} of its lessons`}.
       </p>
       <div class="verdict">
         <button class="primary" data-testid="proposed-keep" disabled={!driving} onClick={() => void keep(source)}>
-          Learn it
+          Keep
         </button>
         <button data-testid="proposed-drop" disabled={!driving} onClick={() => void drop(source)}>
           Not

@@ -65,14 +65,11 @@ export class Engine {
     this.renderer.dispose();
   }
 
-  /** Builds a world anew. */
+  /** Builds a world anew, unless only its boxes are others: `Boxes.replace` has those. */
   arrange(world: World | null): void {
     const before = this.world;
     this.world = world;
-    if (world && this.scenery && sameGround(world, before)) {
-      this.scenery.boxes.replace(world.boxes);
-      return;
-    }
+    if (world && this.scenery && sameGround(world, before)) return;
     this.scenery?.dispose();
     this.robots?.dispose();
     if (this.scenery) this.scene.remove(this.scenery.group);

@@ -47,9 +47,9 @@ export class Heights {
     let before = 0;
     for (let far = 0; far < most; far += Math.max(this.spacing, 0.004 * far)) {
       const [x, y, z] = [0, 1, 2].map((k) => from[k] + far * along[k]);
-      if (z < this.low - 0.01 && along[2] <= 0) return null;
       const ground = this.at(x, y);
       if (z <= ground) return this.refine(from, along, before, far);
+      if (z < this.low - 0.01 && along[2] <= 0) return null; // beside the mesh
       before = far;
     }
     return null;

@@ -35,6 +35,7 @@ export function Stage({ source, tools }: { source: Source; tools?: Tools }) {
     const stops = [
       effect(() => made.dye(theme.value)),
       effect(() => made.arrange(source.world.value)),
+      effect(() => made.scenery?.boxes.replace(source.boxes.value)),
       effect(() => {
         if (source.moved.value) made.scenery?.boxes.move(source.moved.value.things);
       }),

@@ -1,7 +1,7 @@
 """The page's panels as a person meets them in a browser; what came of it is asked of the server."""
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -118,17 +118,16 @@ def test_an_apprentice_asks_whether_what_it_is_shown_is_right(page: Any, line: L
 
 def test_a_motion_is_composed_and_played_back(page: Any, line: Line):
     at(page, "mode-guide").click()
-    at(page, "tab-teach").click()
+    at(page, "tab-drive").click()
     at(page, "compose").click()
     line.status(lambda said: said["composing"])
-    at(page, "tab-drive").click()
+    at(page, "composing").wait_for()
     at(page, "skill-pace").click()
     line.status(lambda said: said["skill"] == "pace")
     at(page, "stand").click()
-    at(page, "tab-teach").click()
     at(page, "compose").click()
     assert line.status(lambda said: not said["composing"])["composed"] == 2
-    at(page, "play-motion").click()
+    at(page, "play").click()
     line.status(lambda said: said["playing"] and said["skill"] == "pace")
     line.status(lambda said: not said["playing"])
 
@@ -209,6 +208,46 @@ def test_fixed_points_stay_and_angles_are_shown_for_each_joint(page: Any, line: 
     at(page, "curve-kind-torque").click()
     assert "no torque profile of trot" in at(page, "curve-missing").inner_text()
     at(page, "curve-kind-cycle").click()
+
+
+def test_a_step_corrected_at_a_block_is_a_rule_that_says_why(page: Any, line: Line):
+    """What the studio is for: to a place that it does not know, over a block, one step corrected."""
+    at(page, "release").click()
+    line.done(do="take")
+    line.done(do="reset", scene="flat", sight="camera")
+    line.done(do="place", x=1.3, y=0.0, lx=0.3, ly=2.0, height=0.06)
+    at(page, "take").click()
+    at(page, "release").wait_for()
+    canvas = at(page, "canvas").bounding_box()
+    for _ in range(10):  # until the ground is drawn there is nothing to click on
+        page.mouse.click(canvas["x"] + 0.6 * canvas["width"], canvas["y"] + 0.3 * canvas["height"])
+        with suppress(AssertionError):
+            line.status(lambda said: said["goal"], 2.0)
+            break
+    line.done(do="take")
+    ahead: dict[str, Any] = {"kind": "", "size": 0.0}
+    while ahead["kind"] not in ("block", "step up") or ahead["size"] < 0.05:  # until it sees all of it
+        line.done(do="resume")
+        line.status()
+        line.done(do="pause")
+        shown = line.done(do="curve", kind="cycle")["curve"]
+        ahead = shown["ahead"] or ahead
+        assert line.last["status"]["time"] < 30.0, "it comes to the block"
+    assert ahead["size"] < 0.08
+    at(page, "take").click()
+    at(page, "tab-curves").click()
+    at(page, "curve-ahead").locator("input").check()
+    drag(page, "point-path-4", 0, -25)
+    at(page, "operator").wait_for()
+    told = line.until(lambda said: said["say"] == "curve" and said["operators"])["operators"]
+    assert told[0]["kinds"] == [ahead["kind"]] and told[0]["taught"].startswith("on FL")
+    before = line.status()["time"]
+    at(page, "resume").click()
+    after = line.status(lambda said: said["time"] > before + 6.0, 90.0)
+    assert not after["fell"]
+    at(page, "curve-save").click()
+    assert at(page, "curve-said").inner_text().startswith("over a")
+    at(page, "curve-undo").click()
 
 
 # --- the map ----------------------------------------------------------------------------------------
