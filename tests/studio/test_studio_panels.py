@@ -166,12 +166,12 @@ def test_a_refused_edit_snaps_back_and_says_why_beside_the_point(page: Any, line
     at(page, "point-path-4").wait_for()
     before = path_of(line)
     with still(page):
+        place = at(page, "point-path-4").bounding_box()
         drag(page, "point-path-4", -30, -400)
         at(page, "refused-point").wait_for()
+        assert at(page, "point-path-4").bounding_box() == pytest.approx(place, abs=1.0)
     assert "point 4" in at(page, "refused-reason").inner_text()
     assert path_of(line)["points"] == before["points"]
-    refused, kept = (at(page, name).bounding_box() for name in ("refused-point", "point-path-4"))
-    assert kept["y"] - refused["y"] > 20.0, "it went back to where it was"
 
 
 def test_a_point_is_put_on_the_line_moved_and_taken_out(page: Any, line: Line):
@@ -246,7 +246,7 @@ def test_a_step_corrected_at_a_block_is_a_rule_that_says_why(page: Any, line: Li
     after = line.status(lambda said: said["time"] > before + 6.0, 90.0)
     assert not after["fell"]
     at(page, "curve-save").click()
-    assert at(page, "curve-said").inner_text().startswith("over a")
+    assert "over a" in at(page, "curve-said").inner_text()
     at(page, "curve-undo").click()
 
 
