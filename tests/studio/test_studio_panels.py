@@ -1,6 +1,7 @@
 """The page's panels as a person meets them in a browser; what came of it is asked of the server."""
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -42,6 +43,15 @@ def drag(page: Any, name: str, right: float, down: float) -> None:
     page.mouse.down()
     page.mouse.move(x + right, y + down, steps=STEPS)
     page.mouse.up()
+
+
+@contextmanager
+def still(page: Any) -> Iterator[None]:
+    """Time stands meanwhile, so that what is measured does not change the picture under the pointer."""
+    at(page, "pause").click()
+    at(page, "resume").wait_for()
+    yield
+    at(page, "resume").click()
 
 
 def rules(line: Line, fits: Any) -> dict[str, Any]:
@@ -132,16 +142,16 @@ def test_a_point_is_dragged_undone_and_done_again(page: Any, line: Line):
     at(page, "tab-curves").click()
     at(page, "point-path-4").wait_for()
     before = path_of(line)
-    drag(page, "point-path-4", 0, -10)
-    at(page, "curve-preview").wait_for()
+    with still(page):
+        drag(page, "point-path-4", 0, -10)
+        at(page, "curve-preview").wait_for()
     assert at(page, "curve-preview").get_attribute("data-fell") == "false"
     now = path_of(line)
     assert now["points"][3][2] > before["points"][3][2] + 0.01
     assert [p for k, p in enumerate(now["points"]) if k != 3] == [
         p for k, p in enumerate(before["points"]) if k != 3
     ]
-    if line.last["curve"]["pending"]:
-        line.until(lambda said: said["say"] == "curve" and not said["pending"])
+    line.until(lambda said: not line.last["curve"]["pending"])  # a new cycle has begun since
     page.keyboard.press("Control+z")
     at(page, "curve-redo").and_(page.locator(":enabled")).wait_for()
     assert path_of(line)["points"] == before["points"]
@@ -155,8 +165,9 @@ def test_a_refused_edit_snaps_back_and_says_why_beside_the_point(page: Any, line
     at(page, "tab-curves").click()
     at(page, "point-path-4").wait_for()
     before = path_of(line)
-    drag(page, "point-path-4", -30, -400)
-    at(page, "refused-point").wait_for()
+    with still(page):
+        drag(page, "point-path-4", -30, -400)
+        at(page, "refused-point").wait_for()
     assert "point 4" in at(page, "refused-reason").inner_text()
     assert path_of(line)["points"] == before["points"]
     refused, kept = (at(page, name).bounding_box() for name in ("refused-point", "point-path-4"))
@@ -168,16 +179,17 @@ def test_a_point_is_put_on_the_line_moved_and_taken_out(page: Any, line: Line):
     at(page, "tab-curves").click()
     at(page, "point-height-4").wait_for()
     many = len(path_of(line)["points"])
-    one, other = (at(page, f"point-height-{k}").bounding_box() for k in (3, 4))
-    x, y = ((one[side] + other[side]) / 2 + 9 for side in ("x", "y"))
-    page.mouse.dblclick(x, y)
-    at(page, f"point-height-{many + 1}").wait_for()
-    assert len(path_of(line)["points"]) == many, "it counts once it is moved"
-    drag(page, "point-height-4", 0, -4)
-    at(page, "curve-preview").wait_for()
-    assert len(path_of(line)["points"]) == many + 1
-    at(page, "point-height-4").click(button="right")
-    at(page, f"point-height-{many + 1}").wait_for(state="detached")
+    with still(page):
+        one, other = (at(page, f"point-height-{k}").bounding_box() for k in (3, 4))
+        x, y = ((one[side] + other[side]) / 2 + 9 for side in ("x", "y"))
+        page.mouse.dblclick(x, y)
+        at(page, f"point-height-{many + 1}").wait_for()
+        assert len(path_of(line)["points"]) == many, "it counts once it is moved"
+        drag(page, "point-height-4", 0, -4)
+        at(page, "curve-preview").wait_for()
+        assert len(path_of(line)["points"]) == many + 1
+        at(page, "point-height-4").click(button="right")
+        at(page, f"point-height-{many + 1}").wait_for(state="detached")
     at(page, "curve-state").filter(has_text="seen in physics").wait_for(state="detached")
     assert len(path_of(line)["points"]) == many
 
@@ -189,7 +201,8 @@ def test_fixed_points_stay_and_angles_are_shown_for_each_joint(page: Any, line: 
     for joint in ("hip-1", "hip-2", "knee"):
         at(page, f"curve-{joint}").wait_for()
     before = path_of(line)
-    drag(page, "point-knee-1", 0, 20)
+    with still(page):
+        drag(page, "point-knee-1", 0, 20)
     assert at(page, "curve-state").get_attribute("data-edited") == f"{before['edited']}".lower()
     assert path_of(line)["points"] == before["points"]
     at(page, "curve-kind-torque").click()
