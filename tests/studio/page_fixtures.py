@@ -180,10 +180,21 @@ def line(studio: Studio) -> Iterator[Line]:
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
     """A browser without a window, that draws in 3-D by itself."""
+    yield from opened(SWITCHES)
+
+
+@pytest.fixture(scope="module")
+def plain_browser() -> Iterator[Any]:
+    """One that does not draw in 3-D, which takes a core: for all that is not in the views."""
+    yield from opened(["--no-sandbox", "--disable-gpu", "--disable-3d-apis"])
+
+
+def opened(switches: list[str]) -> Iterator[Any]:
+    """A browser until it is no longer needed."""
     path = find_browser()
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as tool:
-        running = tool.chromium.launch(executable_path=path, args=SWITCHES)
+        running = tool.chromium.launch(executable_path=path, args=switches)
         yield running
         running.close()
