@@ -112,7 +112,9 @@ class Studio:
 
     def connect(self, token: str | None = None, **settings: Any) -> ClientConnection:
         token = self.token if token is None else token
-        return connect(f"ws://{self.place}/live?token={token}", max_size=None, legacy=True, close_timeout=0.3, **settings)
+        return connect(
+            f"ws://{self.place}/live?token={token}", max_size=None, legacy=True, close_timeout=0.3, **settings
+        )
 
     def line(self) -> Line:
         """A page's connection, once the robot stands there."""

@@ -57,7 +57,7 @@ def test_an_edit_is_taken_undone_done_again_and_kept(room: Room, said: list[dict
     taken = edit(room, 0.02)
     assert taken["taken"] and not taken["preview"]["fell"]
     assert taken["curve"]["points"] != before["points"] and taken["curve"]["undo"]
-    assert said[-1] == {"say": "curve", "edits": said[-1]["edits"], "pending": True}
+    assert said[-1] == {"say": "curve", "edits": said[-1]["edits"], "pending": True, "operators": []}
     laps(room, 1.0)
     assert said[-1]["say"] == "curve" and not said[-1]["pending"], "a new cycle has begun since"
     room.hears(m.Undo())

@@ -3,6 +3,8 @@
 from collections import Counter
 from typing import Any
 
+from gaitwright.gait.coordinator import Coordinator
+from gaitwright.missions import Steering
 from gaitwright.signals import Scan
 from gaitwright.skills.vocabulary import RULE_IN_USE
 from gaitwright.studio.live_run import LiveRun
@@ -19,7 +21,7 @@ def status_of(run: LiveRun, ticks: Counter[str]) -> dict[str, Any]:
         "driver": run.driver,
         "controller": (lap.call.driver if lap else call.driver) or run.driver,
         "skill": call.skill,
-        "held": run.held,
+        "held": "" if isinstance(mind.mission.guidance, Steering) else run.held,
         "velocity": [*call.velocity, call.turn],
         "because": call.because,
         "rule": str(call.memory.get(RULE_IN_USE, "")) if call.ruled else "",
@@ -35,11 +37,33 @@ def status_of(run: LiveRun, ticks: Counter[str]) -> dict[str, Any]:
         "fell": bool(lap and lap.fell),
         "faults": [fault.sentence for fault in lap.faults] if lap else [],
         "obstacle": faced(route.ahead),
+        "operators_in_use": operators_in_use(run),
         "share": {name: count / whole for name, count in ticks.items()},
         "recording": run.recorder is not None,
         "recorded": run.recorder.laps * run.recorder.dt if run.recorder else 0.0,
         "setup": {name: getattr(run.setup, name) for name in ("robot", "scene", "seed", "sight")},
     }
+
+
+def operators_in_use(run: LiveRun) -> list[dict[str, Any]]:
+    """Legs that a terrain operator moves now: by which, how much of an obstacle it answers [m], and why; with
+    no name where none is for what is ahead."""
+    coordinator, lap = run.session.brain.coordinator, run.lap
+    if lap is None or not isinstance(coordinator, Coordinator):
+        return []
+    known, used = coordinator.operators, []
+    rows = zip(run.robot.legs, lap.target.operator.tolist(), lap.target.reach.tolist(), strict=True)
+    for leg, number, reach in rows:
+        if number < 0.0:
+            because = f"something is in the way of {leg}, and nothing that was taught is for it"
+            used.append({"leg": leg, "name": "", "reach": 0.0, "because": because})
+        elif 0.0 < number <= len(known) and reach > 0.0:
+            operator = known[int(number) - 1]
+            size = f"{reach:.2f}" if operator.kinds == ("slope",) else f"{100 * reach:.1f} cm"
+            kinds = " or ".join(operator.kinds)
+            because = f"{size} of a {kinds} are in the way of {leg}: it {operator.strategy}"
+            used.append({"leg": leg, "name": operator.name, "reach": reach, "because": because})
+    return used
 
 
 def faced(ahead: Scan | None) -> str:
