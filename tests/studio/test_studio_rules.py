@@ -84,4 +84,5 @@ def test_operators_of_the_book_are_told_and_the_one_in_use(room: Room, said: lis
     assert used.keys() & {"FL", "FR"}
     for leg, one in used.items():
         assert one["name"] == "over it" and 0.0 < one["reach"] < 0.15
-        assert f"in the way of {leg}: it follows the ground" in one["because"]
+        raised = f"the foot is raised by up to {120.0 * one['reach']:.1f} cm"
+        assert one["because"] == f"a block or step up is in the way of {leg}: {raised}"

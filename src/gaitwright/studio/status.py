@@ -3,7 +3,10 @@
 from collections import Counter
 from typing import Any
 
+import numpy as np
+
 from gaitwright.gait.coordinator import Coordinator
+from gaitwright.gait.operators import Operator
 from gaitwright.missions import Steering
 from gaitwright.signals import Scan
 from gaitwright.skills.vocabulary import RULE_IN_USE
@@ -59,11 +62,18 @@ def operators_in_use(run: LiveRun) -> list[dict[str, Any]]:
             used.append({"leg": leg, "name": "", "reach": 0.0, "because": because})
         elif 0.0 < number <= len(known) and reach > 0.0:
             operator = known[int(number) - 1]
-            size = f"{reach:.2f}" if operator.kinds == ("slope",) else f"{100 * reach:.1f} cm"
-            kinds = " or ".join(operator.kinds)
-            because = f"{size} of a {kinds} are in the way of {leg}: it {operator.strategy}"
+            because = f"a {' or '.join(operator.kinds)} is in the way of {leg}: {moved(operator, reach)}"
             used.append({"leg": leg, "name": operator.name, "reach": reach, "because": because})
     return used
+
+
+def moved(operator: Operator, reach: float) -> str:
+    """What an operator does to a foot where it answers so much of an obstacle [m]."""
+    heights = reach * operator.path[:, 1]
+    peak = 100.0 * float(heights[np.abs(heights).argmax()])
+    raised = f"the foot is {'raised' if peak >= 0.0 else 'lowered'} by up to {abs(peak):.1f} cm"
+    farther = 100.0 * reach * operator.landing
+    return f"{raised} and lands {farther:.1f} cm farther" if farther > 0.05 else raised
 
 
 def faced(ahead: Scan | None) -> str:

@@ -1,11 +1,18 @@
 // What was learned at obstacles: terrain operators, in the order in which they are tried; those in use are lit.
 
+import { useRef } from "preact/hooks";
+import type { Status } from "../protocol";
 import type { Source } from "../source";
 import { number, Section } from "../ui/controls";
 
+/** A swing is short: what a leg did stands there a little longer [s of the run]. */
+const STAYS = 1.5;
+
+type Used = NonNullable<Status["operators_in_use"]>[number];
+
 export function Operators({ source }: { source: Source }) {
   const operators = source.curve.value?.operators ?? [];
-  const used = source.status.value?.operators_in_use ?? [];
+  const used = useOfLate(source.status.value);
   const untaught = used.filter(({ name }) => !name);
   return (
     <Section title="Over obstacles" aside={operators.length ? `${operators.length}, the first that fits is taken` : ""}>
@@ -53,4 +60,15 @@ export function Operators({ source }: { source: Source }) {
       ))}
     </Section>
   );
+}
+
+/** What legs did until a moment ago. */
+function useOfLate(status: Status | null): Used[] {
+  const known = useRef(new Map<string, { used: Used; time: number }>());
+  const time = status?.time ?? 0;
+  for (const used of status?.operators_in_use ?? []) known.current.set(used.leg, { used, time });
+  for (const [leg, one] of known.current) {
+    if (time - one.time > STAYS || time < one.time) known.current.delete(leg);
+  }
+  return [...known.current.values()].map(({ used }) => used);
 }
