@@ -9,6 +9,7 @@ from gaitwright.control.learned.controller import LearnedController
 from gaitwright.control.learned.profile import Profile
 from gaitwright.control.takeover import LEARNED
 from gaitwright.errors import WrongUse
+from gaitwright.gait.operators import Operator
 from gaitwright.locomotion import Brain
 from gaitwright.studio.curve_change import Parts
 from gaitwright.studio.curve_history import Cell, Snapshot
@@ -27,11 +28,16 @@ def edited_parts(brain: Brain, origin: Parts, snapshot: Snapshot) -> Parts:
         out = with_profiles(out, with_edits(profiles_of(origin), snapshot.torques))
     parts = Parts.of(out)
     if snapshot.operators:
-        names = {one.name for one in snapshot.operators}
-        others = (one for one in origin.coordinator.operators if one.name not in names)
-        coordinator = replace(parts.coordinator, operators=(*snapshot.operators, *others))
+        coordinator = replace(parts.coordinator, operators=operators_of(origin, snapshot))
         parts = parts._replace(coordinator=coordinator)
     return parts
+
+
+def operators_of(origin: Parts, snapshot: Snapshot) -> tuple[Operator, ...]:
+    """The terrain operators in the order in which they are tried: those of a person first."""
+    names = {one.name for one in snapshot.operators}
+    others = (one for one in origin.coordinator.operators if one.name not in names)
+    return (*snapshot.operators, *others)
 
 
 def profiles_of(parts: Parts) -> Profiles:

@@ -12,13 +12,13 @@ from typing import Any
 from gaitwright.errors import WrongUse, unknown
 from gaitwright.gait.coordinator import Coordinator
 from gaitwright.gait.leg_cycles.files import cycle_of
-from gaitwright.gait.operators import Operator
+from gaitwright.learning import operator_books
 from gaitwright.locomotion import Brain
 from gaitwright.model.robot import Robot
 from gaitwright.session import Session
 from gaitwright.skillbook.writer import Ledger
 from gaitwright.studio.curve_angle import AngleCurve
-from gaitwright.studio.curve_brain import edited_parts, torques_of
+from gaitwright.studio.curve_brain import edited_parts, operators_of, torques_of
 from gaitwright.studio.curve_change import Change, Parts
 from gaitwright.studio.curve_checks import Refusal, Rows
 from gaitwright.studio.curve_cycle import CycleCurve
@@ -142,7 +142,9 @@ class Curves:
 
     @property
     def operators(self) -> list[Message]:
-        """What was learned at obstacles, in the order in which it is tried."""
+        """What was learned at obstacles, by a person and from the book, in the order in which it is tried."""
+        if self.origin is None:
+            return []
         return [
             {
                 "name": one.name,
@@ -150,21 +152,23 @@ class Curves:
                 "largest": one.largest,
                 "strategy": one.strategy,
                 "taught": one.taught,
+                "sentence": operator_books.sentence(one),
             }
-            for one in self.history.now.operators
+            for one in operators_of(self.origin, self.history.now)
         ]
 
     def edit_at(self, obstacle: Obstacle, skill: str, leg: str, points: Rows, session: Session) -> Message:
         """The path of a foot with an obstacle ahead of its leg becomes a terrain operator, tried before all
-        others; answers as `edit` does, with its `operator` in a sentence's words. Takes about a second."""
+        others; answers as `edit` does, with what was `learned` as a sentence. Takes about a second."""
         now = self.history.now
         curve = self.curve("cycle", skill, leg, session, now)
         assert isinstance(curve, CycleCurve)
         found = operator_from(curve, points, obstacle, self.who)
-        if isinstance(found, Operator):
-            others = (one for one in now.operators if one.name != found.name)
-            found = replace(now, operators=(found, *others))
-        return self.taken(curve, found, session, obstacle.size)
+        if isinstance(found, Refusal):
+            return self.taken(curve, found, session)
+        others = (one for one in now.operators if one.name != found.name)
+        answer = self.taken(curve, replace(now, operators=(found, *others)), session, obstacle.size)
+        return answer | {"learned": operator_books.sentence(found)} if answer["taken"] else answer
 
     def taken(
         self, curve: Curve, found: Snapshot | Refusal, session: Session, imagined: float = 0.0

@@ -3,6 +3,11 @@
 from collections import Counter
 from typing import Any
 
+import numpy as np
+
+from gaitwright.gait.coordinator import Coordinator
+from gaitwright.gait.operators import Operator
+from gaitwright.missions import Steering
 from gaitwright.signals import Scan
 from gaitwright.skills.vocabulary import RULE_IN_USE
 from gaitwright.studio.live_run import LiveRun
@@ -20,7 +25,7 @@ def status_of(run: LiveRun, ticks: Counter[str]) -> dict[str, Any]:
         "driver": run.driver,
         "controller": who_drives((lap.call.driver if lap else call.driver) or run.driver),
         "skill": call.skill,
-        "held": run.held,
+        "held": "" if isinstance(mind.mission.guidance, Steering) else run.held,
         "velocity": [*call.velocity, call.turn],
         "because": call.because,
         "rule": str(call.memory.get(RULE_IN_USE, "")) if call.ruled else "",
@@ -36,11 +41,40 @@ def status_of(run: LiveRun, ticks: Counter[str]) -> dict[str, Any]:
         "fell": bool(lap and lap.fell),
         "faults": [fault.sentence for fault in lap.faults] if lap else [],
         "obstacle": faced(route.ahead),
+        "operators_in_use": operators_in_use(run),
         "share": {name: count / whole for name, count in ticks.items()},
         "recording": run.recorder is not None,
         "recorded": run.recorder.laps * run.recorder.dt if run.recorder else 0.0,
         "setup": {name: getattr(run.setup, name) for name in ("robot", "scene", "seed", "sight")},
     }
+
+
+def operators_in_use(run: LiveRun) -> list[dict[str, Any]]:
+    """Legs that a terrain operator moves now: by which, how much of an obstacle it answers [m], and why; with
+    no name where none is for what is ahead."""
+    coordinator, lap = run.session.brain.coordinator, run.lap
+    if lap is None or not isinstance(coordinator, Coordinator):
+        return []
+    known, used = coordinator.operators, []
+    rows = zip(run.robot.legs, lap.target.operator.tolist(), lap.target.reach.tolist(), strict=True)
+    for leg, number, reach in rows:
+        if number < 0.0:
+            because = f"something is in the way of {leg}, and nothing that was taught is for it"
+            used.append({"leg": leg, "name": "", "reach": 0.0, "because": because})
+        elif 0.0 < number <= len(known) and reach > 0.0:
+            operator = known[int(number) - 1]
+            because = f"a {' or '.join(operator.kinds)} is in the way of {leg}: {moved(operator, reach)}"
+            used.append({"leg": leg, "name": operator.name, "reach": reach, "because": because})
+    return used
+
+
+def moved(operator: Operator, reach: float) -> str:
+    """What an operator does to a foot where it answers so much of an obstacle [m]."""
+    heights = reach * operator.path[:, 1]
+    peak = 100.0 * float(heights[np.abs(heights).argmax()])
+    raised = f"the foot is {'raised' if peak >= 0.0 else 'lowered'} by up to {abs(peak):.1f} cm"
+    farther = 100.0 * reach * operator.landing
+    return f"{raised} and lands {farther:.1f} cm farther" if farther > 0.05 else raised
 
 
 def faced(ahead: Scan | None) -> str:

@@ -14,6 +14,8 @@ import { sameGround } from "./view/same";
 
 const VERSION = 1;
 const ANSWER_WITHIN = 15_000;
+/** What is seen in physics first may take long where it is done for the first time. */
+const SEEN_WITHIN = 120_000;
 const NO_ENTRY = "no connection: is this the whole address that the studio printed, and is it still open?";
 /** Panels ask these by themselves, and show what is refused: the bar below has nothing to do with it. */
 const LOOKS = new Set<Command["do"]>(["why", "curve", "recordings"]);
@@ -106,7 +108,7 @@ export class Live implements Source {
       const timer = setTimeout(() => {
         this.waiting.delete(id);
         resolve(this.refuse(`no answer to ${command.do}`));
-      }, ANSWER_WITHIN);
+      }, command.do === "edit" ? SEEN_WITHIN : ANSWER_WITHIN);
       this.waiting.set(id, (answer) => {
         clearTimeout(timer);
         if (!answer.done && !looks) this.refuse(answer.because);

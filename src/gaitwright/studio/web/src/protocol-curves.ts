@@ -70,5 +70,7 @@ export interface Edited {
   /** Counted from 1. */
   point: number | null;
   preview: Preview | null;
+  /** What an edit at an obstacle taught, as a rule. */
+  learned?: string;
   curve: Curve;
 }

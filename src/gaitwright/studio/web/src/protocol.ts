@@ -80,6 +80,8 @@ export interface Status {
   /** of the recording so far [s] */
   recorded?: number;
   obstacle: string;
+  /** Legs that are moved over something by what was learned, and why; name "": nothing is for it. */
+  operators_in_use?: { leg: string; name: string; reach: number; because: string }[];
   /** the skill that a person holds; "": rules choose */
   held?: string;
   setup?: { robot: string; scene: string; seed: number; sight: "known" | "camera" };
@@ -173,6 +175,7 @@ export interface Operator {
   largest: number;
   strategy: string;
   taught: string;
+  sentence: string;
 }
 
 /** What a person showed an apprentice waits for her word, or nothing does any more. */

@@ -23,6 +23,8 @@ export interface Drawing {
   xUnit: string;
   /** Stretch of x in which the leg stands. */
   stance?: Place;
+  /** How high what is ahead is. */
+  ahead?: { high: number; label: string };
   /** Lines at values that cannot be gone beyond. */
   bounds?: number[];
   line: Place[];
@@ -134,7 +136,21 @@ function Axes({ scale, drawing }: { scale: Scale; drawing: Drawing }) {
         .map((bound) => (
           <path key={bound} class="bound" d={`M${left} ${toPixels(scale, [0, bound])[1]}h${width}`} />
         ))}
+      {drawing.ahead && <AheadLine scale={scale} {...drawing.ahead} />}
       <rect class="frame" x={left} y={top} width={width} height={height} />
+    </g>
+  );
+}
+
+function AheadLine({ scale, high, label }: { scale: Scale; high: number; label: string }) {
+  const { left, width } = scale;
+  const [, y] = toPixels(scale, [0, high]);
+  return (
+    <g class="ahead" data-testid="ahead-line">
+      <path d={`M${left} ${y}h${width}`} />
+      <text x={left + width - 4} y={y - 3} text-anchor="end">
+        {label}
+      </text>
     </g>
   );
 }
@@ -168,7 +184,7 @@ function Handle({ source, disabled, drawing, scale, k, at }: Handled) {
     const moved = from.current?.moved;
     from.current = null;
     desk.dragged.value = null;
-    if (moved) void desk.submit(source, drawing.id, k);
+    if (moved) desk.settle(source, drawing.id, k);
   };
   return (
     <g

@@ -14,8 +14,12 @@ export const leg = signal(0);
 /** Whether an edit counts for the other legs, too. */
 export const mirror = remembered("curve.mirror", true);
 
-/** Whether an edit is how the foot gets over what is ahead of it, and not how it goes at all times. */
+/** Whether an edit is how the foot gets over what is ahead of it, and not how it goes at all times. Such points
+    wait until all of them are where they are to be. */
 export const obstacle = signal(false);
+export const isOver = computed(() => obstacle.value && curve.value?.kind === "cycle");
+/** The last edit at an obstacle, as a rule. */
+export const learned = signal("");
 
 export const curve = signal<Curve | null>(null);
 /** Why there is none. */
@@ -56,6 +60,7 @@ function show(now: Curve | null): void {
 /** What was said of the last edit is out of date. */
 function forget(): void {
   refused.value = preview.value = said.value = null;
+  learned.value = "";
 }
 
 /** A point is taken hold of: the curve stays on the desk, whatever the robot does next. */
@@ -89,21 +94,35 @@ export async function submit(source: Source, chart: string, point: number): Prom
     leg: now.legs.indexOf(now.leg),
     points: wanted,
     mirror: mirror.peek(),
-    obstacle: obstacle.peek() && now.kind === "cycle",
+    obstacle: isOver.peek(),
   });
   busy.value = false;
   if (more?.taken) {
     draft.value = null;
     preview.value = more.preview;
+    learned.value = more.learned ?? "";
     curve.value = more.curve;
     return;
   }
   const why = more?.because ?? because;
   if (UNCHANGED.test(why)) return; // a point more or less on the same line: it counts once it is moved
-  draft.value = null;
+  if (!isOver.peek()) draft.value = null;
   preview.value = more?.preview ?? null;
   const about = more?.point ? more.point - 1 : point;
   refused.value = { chart, row: wanted[about] ?? null, because: why };
+}
+
+/** A point was let go, or taken out. */
+export function settle(source: Source, chart: string, point: number): void {
+  if (isOver.peek()) return;
+  void submit(source, chart, point);
+}
+
+/** From now on edits are of how the foot gets over what is ahead, or of how it goes at all times. */
+export function turnOver(on: boolean): void {
+  obstacle.value = on;
+  draft.value = null;
+  forget();
 }
 
 /** Puts a point on the line; it counts once it is moved. */
@@ -131,7 +150,7 @@ export function remove(source: Source, chart: string, k: number): void {
   forget();
   pin();
   draft.value = JSON.stringify(left) === JSON.stringify(now.points) ? null : left;
-  if (draft.peek()) void submit(source, chart, Math.min(k, left.length - 1));
+  if (draft.peek()) settle(source, chart, Math.min(k, left.length - 1));
 }
 
 /** One edit back, or forward; points that do not count yet go first. */

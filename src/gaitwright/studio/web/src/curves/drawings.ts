@@ -13,13 +13,24 @@ export function drawingsOf(curve: Curve, preview: Preview | null): Drawing[] {
   return curve.kind === "cycle" ? [path(curve, preview), height(curve, preview)] : joints(curve);
 }
 
+/** Kinds that a foot is raised over by their own height. */
+const RAISED = new Set(["block", "step up", "step down"]);
+
+/** What is ahead of the leg, as a line as high as it is [body heights]. */
+function lineAhead({ ahead, limits }: Curve): { high: number; label: string } | undefined {
+  if (!ahead || !limits.height || !RAISED.has(ahead.kind)) return undefined;
+  return { high: ahead.size / limits.height, label: ahead.kind };
+}
+
 /** The closed path of a foot in side view, as its hip sees it. */
 function path(curve: Curve, preview: Preview | null): Drawing {
   const { stride = 0, height: body = 1 } = curve.limits;
   const placed = ([, ahead, high]: number[]): Place => [ahead, high];
   const line = curve.line.map(placed);
   const ghost = curve.measured.map(placed);
-  const all = [...line, ...ghost];
+  const seen = preview ? closed(preview.path.map(placed)) : undefined;
+  const all = [...line, ...ghost, ...(seen ?? [])];
+  const ahead = lineAhead(curve);
   return {
     id: "path",
     title: "Path of the foot, from the side",
@@ -27,12 +38,13 @@ function path(curve: Curve, preview: Preview | null): Drawing {
     height: 168,
     colour: CYCLE,
     x: spanOf(all.map(([x]) => x), ROOM, LEAST_AHEAD),
-    y: spanOf(all.map(([, y]) => y), ROOM, LEAST_HEIGHT),
+    y: spanOf([...all.map(([, y]) => y), ...(ahead ? [ahead.high] : [])], ROOM, LEAST_HEIGHT),
     times: [stride ? 100 * stride : 1, 100 * body],
     xUnit: stride ? "" : "strides",
+    ahead,
     line,
     ghost: closed(ghost),
-    seen: preview ? closed(preview.path.map(placed)) : undefined,
+    seen,
     closed: true,
     place: (row) => [aheadOf(curve, row), row[2]],
     moved: (rows, k, [x, y]) => [rows[k][0], forwardAt(curve, rows[k][0], x), y],
@@ -46,6 +58,9 @@ function height(curve: Curve, preview: Preview | null): Drawing {
   const placed = ([phase, , high]: number[]): Place => [phase, high];
   const line = curve.line.map(placed);
   const ghost = curve.measured.map(placed);
+  const seen = preview?.path.map(placed);
+  const ahead = lineAhead(curve);
+  const heights = [...line, ...ghost, ...(seen ?? [])].map(([, y]) => y);
   return {
     id: "height",
     title: "Height over the phase",
@@ -53,14 +68,15 @@ function height(curve: Curve, preview: Preview | null): Drawing {
     height: 118,
     colour: CYCLE,
     x: [0, 1],
-    y: spanOf([...line, ...ghost].map(([, y]) => y), ROOM, LEAST_HEIGHT),
+    y: spanOf(ahead ? [...heights, ahead.high] : heights, ROOM, LEAST_HEIGHT),
     times: [1, 100 * body],
     xTicks: PHASES,
     xUnit: "",
     stance: curve.stance,
+    ahead,
     line,
     ghost,
-    seen: preview?.path.map(placed),
+    seen,
     place: (row) => [phaseOf(curve, row), row[2]],
     moved: (rows, k, [x, y]) => [between(curve, rows, k, firstAt(curve, x)), rows[k][1], y],
     phaseAt: ([x]) => x,

@@ -29,7 +29,7 @@ export function CurvesPanel({ source }: { source: Source }) {
     <div class="curves" data-testid="curves">
       <Choice source={source} />
       <Tools source={source} disabled={!driving} />
-      {curve?.kind === "cycle" && <Ahead source={source} />}
+      {curve?.kind === "cycle" && <Ahead source={source} disabled={!driving} />}
       {!curve && <p class={desk.missing.value ? "refusal nothing" : "faint nothing"} data-testid="curve-missing">
         {desk.missing.value || "looking …"}
       </p>}
@@ -118,7 +118,7 @@ function Tools({ source, disabled }: { source: Source; disabled: boolean }) {
   const alike = curve?.kind === "torque" ? "all legs alike" : "front and hind legs alike";
   return (
     <div class="curves-tools">
-      <Switch id="curve-mirror" label={alike} on={desk.mirror.value} change={(on) => (desk.mirror.value = on)} />
+      {!desk.isOver.value && <Switch id="curve-mirror" label={alike} on={desk.mirror.value} change={(on) => (desk.mirror.value = on)} />}
       <span class="spring" />
       <button
         class="icon"
@@ -150,26 +150,53 @@ function Tools({ source, disabled }: { source: Source; disabled: boolean }) {
   );
 }
 
-/** What is ahead of the leg: an edit can be how it gets over that. */
-function Ahead({ source }: { source: Source }) {
+/** What is ahead of the leg: an edit can be how it gets over that, for every leg and skill. */
+function Ahead({ source, disabled }: { source: Source; disabled: boolean }) {
   const ahead = desk.curve.value?.ahead;
-  const operators = source.curve.value?.operators ?? [];
-  const size = ahead && (ahead.kind === "slope" ? number(ahead.size) : `${number(100 * ahead.size, 1)} cm`);
+  const waits = desk.isOver.value && desk.draft.value !== null;
   return (
     <div class="curves-ahead" data-testid="curve-ahead" data-kind={ahead?.kind ?? ""}>
       <Switch
         id="curve-obstacle"
-        label={ahead ? `over what is ahead: a ${ahead.kind} of ${size}` : "over what is ahead: nothing is"}
+        label={ahead ? `over the ${ahead.kind} of ${sizeOf(ahead)} ahead` : "over what is ahead: nothing is"}
         on={desk.obstacle.value}
-        change={(on) => (desk.obstacle.value = on)}
+        change={desk.turnOver}
       />
-      {operators.map((one) => (
-        <p key={one.name} class="faint" title={one.taught} data-testid="operator">
-          {one.strategy} over {one.kinds.join(", ")} of up to {number(100 * one.largest, 1)} cm
+      {desk.isOver.value && (
+        <>
+          <p class="faint">
+            {waits
+              ? "Move all points that have to be others; then let it be learned, for every leg and skill."
+              : ahead
+                ? "Raise the path over the line: that is what it does with such things ahead."
+                : "Bring the leg to something, or something before the leg."}
+          </p>
+          <button
+            class="wide"
+            data-testid="curve-learn"
+            disabled={disabled || !waits || !ahead || desk.busy.value}
+            onClick={() => void desk.submit(source, "path", highestOf(desk.points.peek()))}
+          >
+            {desk.busy.value ? "Seen in physics …" : "Learn this path"}
+          </button>
+        </>
+      )}
+      {desk.learned.value && (
+        <p class="good" data-testid="curve-learned">
+          Learned: {desk.learned.value}
         </p>
-      ))}
+      )}
     </div>
   );
+}
+
+function sizeOf({ kind, size }: { kind: string; size: number }): string {
+  return kind === "slope" ? number(size) : `${number(100 * size, 1)} cm`;
+}
+
+function highestOf(rows: number[][]): number {
+  const heights = rows.map((row) => row[2]);
+  return heights.indexOf(Math.max(...heights));
 }
 
 /** What became of the last edit. */
@@ -179,13 +206,17 @@ function Outcome() {
   const said = desk.said.value;
   const state = desk.busy.value
     ? "seen in physics …"
-    : desk.draft.value && !desk.dragged.value
-      ? "counts once a point is moved"
-      : curve?.pending
-        ? "taken on at the next cycle"
-        : curve?.edited
-          ? "edited, in effect"
-          : "as it was";
+    : desk.isOver.value && desk.draft.value
+      ? "waits to be learned"
+      : desk.draft.value && !desk.dragged.value
+        ? "counts once a point is moved"
+        : curve?.pending
+          ? "taken on at the next cycle"
+          : curve?.edited
+            ? "edited, in effect"
+            : desk.learned.value
+              ? "as it was, but over what is ahead"
+              : "as it was";
   return (
     <div class="curve-outcome">
       <p data-testid="curve-state" data-pending={`${curve?.pending ?? false}`} data-edited={`${curve?.edited ?? false}`}>

@@ -3,7 +3,6 @@
 import { signal } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { Rule, Rules } from "../protocol";
-import { tabs } from "../shell/docks";
 import { drives, type Source } from "../source";
 import { order } from "../teach/teaching";
 import { skillColour } from "../ui/colours";
@@ -12,6 +11,8 @@ import { Icon } from "../ui/icons";
 import { Asking } from "./asking";
 import { Forest } from "./forest";
 import { Lessons } from "./lessons";
+import { Operators } from "./operators";
+import { Ordered } from "./ordered";
 import { useWhy } from "./why";
 import "./rules.css";
 import "./forest.css";
@@ -40,12 +41,16 @@ export function RulesPanel({ source }: { source: Source }) {
             There is none yet: tell the robot what is right, under “Teach”.
           </p>
         )}
-        <ol class="rules" data-testid="rules">
-          {rules.rules.map((rule) => (
-            <RuleRow key={rule.name} source={source} rules={rules} rule={rule} />
-          ))}
-        </ol>
+        <Ordered source={source} rules={rules.rules}>
+          {(rule, lit) => (
+            <>
+              <RuleLine rule={rule} />
+              {opened.value === rule.name && <Detail source={source} rules={rules} rule={rule} lit={lit} />}
+            </>
+          )}
+        </Ordered>
       </Section>
+      <Operators source={source} />
       <Lessons source={source} lessons={rules.lessons} />
     </>
   );
@@ -69,31 +74,27 @@ function InUse({ source }: { source: Source }) {
   );
 }
 
-function RuleRow({ source, rules, rule }: { source: Source; rules: Rules; rule: Rule }) {
-  const lit = source.status.value?.rule === rule.name;
+function RuleLine({ rule }: { rule: Rule }) {
   const open = opened.value === rule.name;
   return (
-    <li class={`rule-row ${lit ? "lit" : ""}`} data-testid="rule" data-rule={rule.name} data-status={rule.status}>
-      <button
-        class="rule-line"
-        aria-expanded={open}
-        data-testid={`rule-${rule.name}`}
-        onClick={() => (opened.value = open ? "" : rule.name)}
-      >
-        <i class="rule-skill" style={{ background: skillColour(rule.skill) }} />
-        <span class="rule-name" title={rule.name}>
-          {rule.name}
-        </span>
-        <Progress status={rule.status} />
-        <span class="rule-count right" title={`seen right in ${rule.right} situations`}>
-          {rule.right ? `+${rule.right}` : ""}
-        </span>
-        <span class="rule-count wrong" title={`seen wrong in ${rule.wrong} situations`}>
-          {rule.wrong ? `−${rule.wrong}` : ""}
-        </span>
-      </button>
-      {open && <Detail source={source} rules={rules} rule={rule} lit={lit} />}
-    </li>
+    <button
+      class="rule-line"
+      aria-expanded={open}
+      data-testid={`rule-${rule.name}`}
+      onClick={() => (opened.value = open ? "" : rule.name)}
+    >
+      <i class="rule-skill" style={{ background: skillColour(rule.skill) }} />
+      <span class="rule-name" title={rule.name}>
+        {rule.name}
+      </span>
+      <Progress status={rule.status} />
+      <span class="rule-count right" title={`seen right in ${rule.right} situations`}>
+        {rule.right ? `+${rule.right}` : ""}
+      </span>
+      <span class="rule-count wrong" title={`seen wrong in ${rule.wrong} situations`}>
+        {rule.wrong ? `−${rule.wrong}` : ""}
+      </span>
+    </button>
   );
 }
 
@@ -147,9 +148,7 @@ function Order({ source, rules, rule }: { source: Source; rules: Rules; rule: Ru
   const above = rules.rules[rules.rules.indexOf(rule) - 1];
   if (!above) return null;
   const put = async () => {
-    const refused = await order(source, rule.name, above.name);
-    setBecause(refused);
-    if (!refused) tabs.left.value = "teach";
+    setBecause(await order(source, rule.name, above.name));
   };
   return (
     <>

@@ -1,30 +1,34 @@
-// What a person showed an apprentice by doing it: is it right there? Asked over the views, until it is said.
+// What a person showed an apprentice by doing it, or a rule that is to come before another: is it right?
+// Asked over the views, until it is said.
 
 import { useEffect } from "preact/hooks";
+import type { Tried } from "../protocol";
 import { tabs } from "../shell/docks";
 import { drives, type Source } from "../source";
-import { drop, keep, propose, proposed, tried } from "./teaching";
+import { drop, keep, propose, proposed, refused, tried } from "./teaching";
 import "./teach.css";
 
 /** So many lines of what would be learned; the others under “Teach”. */
 const MOST = 3;
 
+const questionOf = ({ sentence }: Tried) => `Is ${sentence.replace(/ is right here$/, "")} right here?`;
 const times = (count: number) => (count === 1 ? "one stretch of this run" : `${count} stretches of this run`);
 
 export function Shown({ source }: { source: Source }) {
   const told = source.tried.value;
   useEffect(() => {
-    if (told?.proposed) propose(told, true);
-    else if (proposed.peek()) propose(null, false);
+    if (told?.proposed) propose(told, { question: questionOf(told), told: true });
+    else if (proposed.peek()?.told) propose(null, null);
   }, [told]);
   const now = tried.value;
-  if (!now || !proposed.value) return null;
+  const asked = proposed.value;
+  if (!now || !asked) return null;
   const driving = drives(source);
   const broken = now.broken.length;
   return (
     <div class="shown" data-testid="proposed" data-followed={`${now.followed}`}>
       <p>
-        <strong>Is {now.sentence.replace(/ is right here$/, "")} right here?</strong>
+        <strong>{asked.question}</strong>
       </p>
       {now.moves.slice(0, MOST).map((line) => (
         <p key={line} class="shown-line" title={line}>
@@ -47,6 +51,7 @@ export function Shown({ source }: { source: Source }) {
           What else?
         </button>
       </div>
+      {refused.value?.field === "keep" && <p class="refusal">{refused.value.because}</p>}
     </div>
   );
 }

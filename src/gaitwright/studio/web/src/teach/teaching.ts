@@ -25,8 +25,8 @@ export const refused = signal<{ field: Field | "keep" | "ok"; because: string } 
 export const learned = signal("");
 export const waits = signal(false);
 
-/** Whether what was tried is what a person showed by doing it. */
-export const proposed = signal(false);
+/** What is asked over the views of what was tried; `told`: by the studio, because a person showed it. */
+export const proposed = signal<{ question: string; told: boolean } | null>(null);
 
 /** Whether time was stopped so that “here” stays here. */
 let stopped = false;
@@ -55,21 +55,21 @@ export async function tellWhatIsRight(source: Source): Promise<void> {
   waits.value = true;
   const { more, because } = await ask<Tried>(source, { do: "right", skill, ...meant, about, name: name.trim() });
   waits.value = false;
-  propose(more, false);
+  propose(more, null);
   if (because) refused.value = { field: fieldOf(because), because };
 }
 
 /** Lays what a lesson would do before its teacher. */
-export function propose(more: Tried | null, shown: boolean): void {
+export function propose(more: Tried | null, asked: typeof proposed.value): void {
   refused.value = null;
   tried.value = more;
-  proposed.value = shown && more !== null;
+  proposed.value = more && asked;
 }
 
 /** One rule before another, as a lesson; why not, where that cannot be. */
 export async function order(source: Source, rule: string, before: string): Promise<string> {
   const { more, because } = await ask<Tried>(source, { do: "order", rule, before });
-  if (more) propose(more, false);
+  if (more) propose(more, { question: `${rule} before ${before}?`, told: false });
   return because;
 }
 

@@ -43,7 +43,7 @@ export class Engine {
 
   constructor(readonly canvas: HTMLCanvasElement, readonly source: Source) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: false });
-    this.quality = new Quality(this.renderer);
+    this.quality = new Quality(this.renderer, () => this.lights.withoutShadows());
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.toneMapping = NeutralToneMapping;

@@ -10,7 +10,8 @@ export class Quality {
   private times: number[] = [];
   private before = 0;
 
-  constructor(private readonly renderer: WebGLRenderer) {
+  /** `plain`: draws no shadows any more. */
+  constructor(private readonly renderer: WebGLRenderer, private readonly plain: () => void) {
     renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
   }
 
@@ -26,6 +27,6 @@ export class Quality {
     if (middle < SLOW) return;
     this.level += 1;
     if (this.level === 1) this.renderer.setPixelRatio(Math.min(devicePixelRatio, 1) * 0.75);
-    else this.renderer.shadowMap.autoUpdate = this.renderer.shadowMap.enabled = false;
+    else this.plain();
   }
 }

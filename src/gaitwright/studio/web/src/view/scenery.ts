@@ -49,6 +49,11 @@ export class Lights {
     this.sun.position.copy(this.sun.target.position).addScaledVector(SUN, Math.max(1, size));
   }
 
+  /** Where a machine is too slow for them. */
+  withoutShadows(): void {
+    this.sun.castShadow = false;
+  }
+
   dye(palette: Palette): void {
     this.sun.intensity = palette.sun;
     this.sky.intensity = palette.sky;

@@ -35,7 +35,10 @@ export function Stage({ source, tools }: { source: Source; tools?: Tools }) {
     const stops = [
       effect(() => made.dye(theme.value)),
       effect(() => made.arrange(source.world.value)),
-      effect(() => made.scenery?.boxes.replace(source.boxes.value)),
+      effect(() => {
+        const boxes = source.boxes.value;
+        made.scenery?.boxes.replace(boxes);
+      }),
       effect(() => {
         if (source.moved.value) made.scenery?.boxes.move(source.moved.value.things);
       }),
