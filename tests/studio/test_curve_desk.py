@@ -5,14 +5,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from rooms import laps, opened
 
 from gaitwright.errors import GaitwrightError, WrongUse
-from gaitwright.skillbook.book import Skillbook
-from gaitwright.skillbook.writer import open_for_learning
-from gaitwright.skills.situation import FOREST
 from gaitwright.studio import messages as m
 from gaitwright.studio.room import Room
-from gaitwright.studio.setup import Setup
 
 
 @pytest.fixture
@@ -22,19 +19,10 @@ def said() -> list[dict]:
 
 @pytest.fixture
 def room(tmp_path: Path, said: list[dict]) -> Iterator[Room]:
-    book = tmp_path / "studio.skills"
-    Skillbook.new(FOREST, "go2", "studio", 0).save(book)
-    with open_for_learning(book) as ledger:
-        room = Room(Setup(driver="numerical"), ledger, tmp_path, said.append)
+    with opened(tmp_path, said) as room:
         room.hears(m.Skill(name="trot"))
         laps(room, 1.0)
         yield room
-        room.close()
-
-
-def laps(room: Room, seconds: float) -> None:
-    for _ in range(round(seconds / 0.002)):
-        room.lap()
 
 
 def raised(points: list[list[float]], by: float) -> list[list[float]]:

@@ -7,17 +7,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from rooms import laps, opened
 
 from gaitwright.errors import GaitwrightError, WrongUse
 from gaitwright.record.metrics import digest
 from gaitwright.record.recording import load
-from gaitwright.skillbook.book import Skillbook
-from gaitwright.skillbook.writer import open_for_learning
-from gaitwright.skills.situation import FOREST
 from gaitwright.studio import messages as m
 from gaitwright.studio.frames import LAYOUT, columns_of, row_of
 from gaitwright.studio.room import Room
-from gaitwright.studio.setup import DRIVERS, Setup
+from gaitwright.studio.setup import DRIVERS
 
 
 @pytest.fixture
@@ -27,18 +25,8 @@ def said() -> list[dict]:
 
 @pytest.fixture
 def room(tmp_path: Path, said: list[dict]) -> Iterator[Room]:
-    book = tmp_path / "studio.skills"
-    Skillbook.new(FOREST, "go2", "studio", 0).save(book)
-    with open_for_learning(book) as ledger:
-        room = Room(Setup(driver="numerical"), ledger, tmp_path, said.append)
+    with opened(tmp_path, said) as room:
         yield room
-        room.close()
-
-
-def laps(room: Room, seconds: float) -> None:
-    for _ in range(round(seconds / 0.002)):
-        if not room.lap():
-            break
 
 
 def place(room: Room) -> np.ndarray:
@@ -113,7 +101,8 @@ def test_every_driver_takes_over_while_it_walks(room: Room, driver: str):
         (m.Drive(driver="learned"), "there is no driver learned here"),
         (m.Drive(driver="nobody"), "no driver 'nobody'"),
         (m.Reset(scene="nowhere"), "no scene 'nowhere'"),
-        (m.Reset(robot="/etc/passwd"), "passwd"),
+        (m.Reset(robot="/etc/passwd"), "no robot '/etc/passwd'"),
+        (m.Reset(scene="/etc/passwd.json"), "no scene '/etc/passwd.json'"),
         (m.PlaceBox(x=0.0, y=0.1, lx=0.3, ly=0.3, height=0.2), "the robot is there"),
         (m.Move(thing=999, x=0.0, y=0.0), "no box 999"),
         (m.Step(ticks=5), "pause first"),
@@ -147,6 +136,10 @@ def test_an_aborted_robot_comes_down_and_its_motors_go_off(room: Room):
     room.hears(m.Abort())
     laps(room, 8.0)
     assert "aborted" in room.status()["over"] and not room.status()["fell"]
+    for message in (m.Go(x=1.0, y=0.0), m.Steer(forward=0.2), m.Skill(name="walk"), m.Stand()):
+        with pytest.raises(WrongUse, match="a reset begins another"):
+            room.hears(message)
+    room.driving.watch_over()
     assert place(room)[2] < 0.6 * high
     assert room.run.session.closed
 

@@ -5,16 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from rooms import laps, opened
 
 from gaitwright.errors import WrongUse
 from gaitwright.gait.operators import SHARES, Operator
-from gaitwright.learning.operator_books import notes_of
-from gaitwright.skillbook.book import Skillbook
-from gaitwright.skillbook.writer import open_for_learning
-from gaitwright.skills.situation import FOREST
 from gaitwright.studio import messages as m
 from gaitwright.studio.room import Room
-from gaitwright.studio.setup import Setup
 
 
 def over() -> Operator:
@@ -31,27 +27,22 @@ def said() -> list[dict]:
 
 @pytest.fixture
 def room(tmp_path: Path, said: list[dict]) -> Iterator[Room]:
-    book = tmp_path / "studio.skills"
-    Skillbook.new(FOREST, "go2", "studio", 0).save(book)
-    with open_for_learning(book) as ledger:
-        ledger.keep_operators([notes_of(over())])
-        room = Room(Setup(scene="flat", driver="numerical"), ledger, tmp_path, said.append)
+    with opened(tmp_path, said, "flat", [over()]) as room:
         yield room
-        room.close()
 
 
-def laps(room: Room, seconds: float) -> None:
-    for _ in range(round(seconds / 0.002)):
-        assert room.lap()
+def looked(room: Room, seconds: float) -> None:
+    """Time for the robot, and a look at what it comes to."""
+    laps(room, seconds)
     room.teaching.look()
 
 
 def teach(room: Room, skill: str, name: str) -> None:
     room.hears(m.Skill(name=skill))
-    laps(room, 0.8)
+    looked(room, 0.8)
     room.hears(m.Right(skill=skill, name=name))
     room.hears(m.Keep())
-    laps(room, 0.4)
+    looked(room, 0.4)
 
 
 def test_a_rule_comes_before_another_where_both_could_fire_and_only_once_it_is_kept(room: Room):
@@ -78,7 +69,7 @@ def test_operators_of_the_book_are_told_and_the_one_in_use(room: Room, said: lis
     room.hears(m.Skill(name="walk"))
     used: dict[str, dict] = {}
     for _ in range(400):
-        laps(room, 0.02)
+        looked(room, 0.02)
         now = room.status()["operators_in_use"]
         used |= {one["leg"]: one for one in now if one["name"]}
     assert used.keys() & {"FL", "FR"}

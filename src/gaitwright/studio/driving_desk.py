@@ -54,7 +54,7 @@ class DrivingDesk:
     def watch_over(self) -> None:
         """Stops a robot whose steering person is gone."""
         is_heard = self.steered_at is None or monotonic() - self.steered_at <= WATCHDOG
-        if not is_heard and not self.score.is_playing:
+        if not is_heard and not self.score.is_playing and self.run.over is None:
             self.stand(m.Stand())
 
     def after(self) -> None:

@@ -119,6 +119,7 @@ class LiveRun:
     # --- where to go --------------------------------------------------------------------------------
     def go(self, x: float, y: float, then: bool) -> None:
         """To a place of the field [m]; with `then` after the places that are left."""
+        self.check_going()
         self.check_on("the goal", x, y)
         before = self.session.mind.mission.waypoints if then else ()
         if self.held:
@@ -128,6 +129,9 @@ class LiveRun:
     def steer(self, forward: float, left: float, turn: float) -> None:
         """A person's velocity, in the heading frame [m/s, m/s, rad/s], until another one. Raises `WrongUse`
         for one that is beyond the robot."""
+        self.check_going()
+        if self.held:
+            self.let_choose()
         guidance = self.session.mind.mission.guidance
         if isinstance(guidance, Steering) and guidance.velocities == ((forward, left, turn),):
             return  # asked again, so that somebody is heard
@@ -154,6 +158,7 @@ class LiveRun:
 
     def hold(self, skill: str, speed: float | None) -> None:
         """One skill, at a speed [m/s], straight on, until somebody says more."""
+        self.check_going()
         chooser = fixed_skill(self.robot, skill, speed, 0.0, None, "")
         check_turn(find_skill(skill, self.robot), self.robot, chooser.skill_call.turn)
         self.session.give(Mission((), driver=self.driver))
@@ -173,6 +178,7 @@ class LiveRun:
 
     def push(self, impulse: float, direction: float) -> None:
         """A push now; `direction` in the world [rad]."""
+        self.check_going()
         from_ahead = math.degrees(direction) - math.degrees(self.yaw)
         self.session.push(Push(impulse, from_ahead, at=0.0))
 
@@ -215,6 +221,11 @@ class LiveRun:
         scene = replace(self.scene, boxes=tuple(boxes.values()))
         self.session.rearrange(scene)
         self.scene, self.boxes = scene, boxes
+
+    def check_going(self) -> None:
+        """Raises `WrongUse` where the run is over."""
+        if self.over is not None:
+            raise WrongUse(f"the run is over, {self.over}: a reset begins another")
 
     def check_clear(self, box: Box) -> None:
         """Raises `WrongUse` for a box that is where the robot is."""

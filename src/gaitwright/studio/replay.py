@@ -11,7 +11,7 @@ import zlib
 from collections.abc import Iterator
 from dataclasses import asdict, replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float
@@ -20,12 +20,12 @@ from gaitwright.errors import WrongUse
 from gaitwright.files import fitting, whole
 from gaitwright.ground.scene import Scene
 from gaitwright.ground.terrain import Flat
-from gaitwright.numerics.packing import Layout
 from gaitwright.record.metrics import stretches
 from gaitwright.record.moment import call_at
 from gaitwright.record.recording import Recording
 from gaitwright.record.scene_of import scene_of
 from gaitwright.skills.vocabulary import RULE_IN_USE
+from gaitwright.studio.frames import columns_of
 from gaitwright.studio.shown import things_shown, world_shown
 
 RATE = 50.0
@@ -36,27 +36,11 @@ MOVES = 10.0
 TEMPLATE, PLACE = "replay.html", '<script type="application/json" id="recording">'
 
 
-class ReplayRow(NamedTuple):
-    """One moment; names and units as in `frames.FrameRow`."""
-
-    time: float
-    position_w: Float[np.ndarray, "3"]
-    orientation_wb: Float[np.ndarray, "4"]
-    velocity_w: Float[np.ndarray, "3"]
-    angular_velocity_b: Float[np.ndarray, "3"]
-    q: Float[np.ndarray, "legs 3"]
-    tau: Float[np.ndarray, "legs 3"]
-    load: Float[np.ndarray, "legs"]
-    stance: Float[np.ndarray, "legs"]
-    forces_w: Float[np.ndarray, "legs 3"]
-    command: Float[np.ndarray, "3"]
-    reference_position_w: Float[np.ndarray, "3"]
-    phase: float
-    driver: float
-    power: float
-
-
-LAYOUT = Layout.of(ReplayRow)
+TOLD = (
+    "time", "position_w", "orientation_wb", "velocity_w", "angular_velocity_b", "q", "tau", "load", "stance",
+    "forces_w", "command", "reference_position_w", "phase", "driver", "power",
+)  # fmt: skip
+"""Columns of a frame's row that a recording tells."""
 OTHERWISE = {"reference_position_w": "target_w"}
 """What a recording calls otherwise."""
 
@@ -94,10 +78,7 @@ def replay_data(recording: Recording, scene: Scene | None = None) -> dict[str, A
     return {
         "title": f"{recording.robot.name} in {recording.scene or 'a scene'}: {recording.stopped_because}",
         "world": world_shown(ground, [recording.robot], dict(enumerate(ground.boxes))),
-        "columns": [
-            {"name": name, "size": at.stop - at.start}
-            for name, at in LAYOUT.slices(recording.robot.n).items()
-        ],
+        "columns": told_columns(recording.robot.n),
         "drivers": list(recording.drivers),
         "rate": 1.0 / (step * recording.dt),
         "count": len(rows),
@@ -115,16 +96,22 @@ def scene_shown_of(recording: Recording) -> Scene:
     return replace(known, movers=recording.movers)
 
 
+def told_columns(legs: int) -> list[dict[str, str | int]]:
+    """Names and sizes of the columns of a row, in order."""
+    return [column for column in columns_of(legs) if column["name"] in TOLD]
+
+
 def rows_of(recording: Recording, step: int) -> Float[np.ndarray, "moments width"]:
     """Every `step`-th tick."""
-    where = LAYOUT.slices(recording.robot.n)
-    rows = np.empty((len(range(0, len(recording), step)), LAYOUT.size(recording.robot.n)), np.float32)
-    for name, place in where.items():
-        if name != "power":
-            column = recording[OTHERWISE.get(name, name)][::step]
-            rows[:, place] = column.reshape(len(rows), -1)
-    rows[:, where["power"]] = np.abs(recording["tau"] * recording["qd"])[::step].sum(axis=1)[:, None]
-    return rows
+    columns = []
+    for column in told_columns(recording.robot.n):
+        name = str(column["name"])
+        if name == "power":
+            columns.append(np.abs(recording["tau"] * recording["qd"])[::step].sum(axis=1)[:, None])
+        else:
+            channel = recording[OTHERWISE.get(name, name)][::step]
+            columns.append(channel.reshape(len(channel), -1))
+    return np.concatenate(columns, axis=1).astype(np.float32)
 
 
 def packed(rows: np.ndarray) -> str:

@@ -12,8 +12,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Protocol
 
-from gaitwright.errors import WrongUse
-from gaitwright.ground.scenes_list import scene_names
+from gaitwright.errors import WrongUse, unknown
+from gaitwright.ground.scenes_list import parse, scene_names
 from gaitwright.model.catalogue import robot_names
 from gaitwright.navigation.travel import Travel
 from gaitwright.record.previews import preview_of
@@ -55,7 +55,7 @@ class Room:
     """A run, a book's pupil, and the person who drives them. `say` is told what everybody should know."""
 
     def __init__(self, setup: Setup, ledger: Ledger, folder: Path, say: Say) -> None:
-        self.ledger, self.say = ledger, say
+        self.own, self.ledger, self.say = setup, ledger, say
         self.paused, self.pace = False, 1.0
         self.teaching = TeachingDesk(ledger, say)
         self.driving = DrivingDesk(self.teaching, say)
@@ -124,10 +124,18 @@ class Room:
     def reset(self, said: m.Reset) -> None:
         asked = {name: getattr(said, name) for name in ("robot", "scene", "seed", "sight", "driver")}
         given = {name: value for name, value in asked.items() if value is not None}
+        self.check_names(said)
         setup = replace(self.run.setup, **given)
         self.recording.end()
         self.begin(setup)
         self.welcome()
+
+    def check_names(self, said: m.Reset) -> None:
+        """Raises `WrongUse` for a file that the command line did not name: a page names none."""
+        if said.robot not in (None, self.own.robot, *robot_names()):
+            raise unknown("robot", str(said.robot), robot_names())
+        if said.scene not in (None, self.own.scene):
+            parse(str(said.scene))
 
     # --- what is said -------------------------------------------------------------------------------
     def welcome(self) -> None:
