@@ -3,8 +3,8 @@
 Topics: `/joint_states` (sensor_msgs/JointState: angles, rates, torques), `/tf` (tf2_msgs/TFMessage: world →
 base → the links of every leg), `/tf_static` (their feet), `/robot_description` (std_msgs/String: a URDF with
 these links and joints), `/gaitwright/scene` (foxglove.SceneUpdate: ground, boxes, the way, what moves),
-`/gaitwright/changes` (JSON: skill and driver, whenever one changes), `/gaitwright/scan` (JSON: the ground
-ahead, whenever it looks different), and those of `mcap_previews`. Needs the extra `record`.
+`/gaitwright/changes` (JSON: skill, driver and rule, whenever one changes), `/gaitwright/scan` (JSON: the
+ground ahead, whenever it looks different), and those of `mcap_previews`. Needs the extra `record`.
 """
 
 import json
@@ -24,9 +24,9 @@ from gaitwright.model.robot import Robot
 from gaitwright.model.urdf import Names, write_urdf
 from gaitwright.numerics.geometry import quaternion_of
 from gaitwright.plant.mujoco.world import JOINTS
+from gaitwright.record.changes import Change, changes_of
 from gaitwright.record.channels import SCAN
 from gaitwright.record.mcap_previews import write_previews
-from gaitwright.record.metrics import stretches
 from gaitwright.record.recording import Recording
 from gaitwright.record.rows import parts
 from gaitwright.record.scene_of import scene_of
@@ -79,8 +79,8 @@ float64 w
 CHANGES = {
     "title": "gaitwright.Changes",
     "type": "object",
-    "properties": {"time": {"type": "number"}, "skill": {"type": "string"}, "driver": {"type": "string"}},
-    "required": ["time", "skill", "driver"],
+    "properties": {"time": {"type": "number"}, **{name: {"type": "string"} for name in Change._fields[1:]}},
+    "required": list(Change._fields),
 }
 FIELDS = tuple(field.name for field in fields(Scan))
 SCANS = {
@@ -173,15 +173,13 @@ def write_states(writer: Writer, r: Recording) -> None:
 
 
 def write_changes(writer: Writer, r: Recording) -> None:
-    """Which skill by which driver, whenever one of them changes."""
+    """Which skill by which driver and by which rule, whenever one of them changes."""
     raw = writer._writer  # the ROS 2 writer offers no JSON; the one it wraps does
     schema = raw.register_schema("gaitwright.Changes", "jsonschema", json.dumps(CHANGES).encode())
     channel = raw.register_channel("/gaitwright/changes", "json", schema)
-    for start, _ in stretches(r["skill"] * len(r.drivers) + r["driver"]):
-        skill, driver = r.skills[int(r.at("skill", start))], r.drivers[int(r.at("driver", start))]
-        time = float(r.at("time", start))
-        change, at = {"time": time, "skill": skill, "driver": driver}, nanoseconds(time)
-        raw.add_message(channel, at, json.dumps(change).encode(), at)
+    for change in changes_of(r):
+        at = nanoseconds(change.time)
+        raw.add_message(channel, at, json.dumps(change._asdict()).encode(), at)
 
 
 def write_scans(writer: Writer, r: Recording) -> None:

@@ -20,11 +20,9 @@ from gaitwright.errors import WrongUse
 from gaitwright.files import fitting, whole
 from gaitwright.ground.scene import Scene
 from gaitwright.ground.terrain import Flat
-from gaitwright.record.metrics import stretches
-from gaitwright.record.moment import call_at
+from gaitwright.record.changes import changes_of
 from gaitwright.record.recording import Recording
 from gaitwright.record.scene_of import scene_of
-from gaitwright.skills.vocabulary import RULE_IN_USE
 from gaitwright.studio.frames import columns_of
 from gaitwright.studio.shown import things_shown, world_shown
 
@@ -65,7 +63,9 @@ def replay_page(recording: Recording, page: Path, scene: Scene | None = None) ->
     before, mark, after = template.read_text(encoding="utf-8").partition(PLACE)
     assert mark, "the built page has a place for a recording"
     data = json.dumps(replay_data(recording.sound(), scene), separators=(",", ":"), allow_nan=False)
-    return before + mark + data.replace("</", "<\\/") + after
+    return (
+        before + mark + data.replace("<", "\\u003c") + after
+    )  # so that no name ends the data, or opens a comment
 
 
 def replay_data(recording: Recording, scene: Scene | None = None) -> dict[str, Any]:
@@ -123,19 +123,8 @@ def packed(rows: np.ndarray) -> str:
 
 def events_of(recording: Recording) -> Iterator[dict[str, Any]]:
     """When skill, driver or rule changed, and to what."""
-    several = np.stack([recording[name] for name in ("skill", "driver", "memory")], axis=1)
-    changes = np.nan_to_num(several, nan=-1.0)
-    _, numbers = np.unique(changes, axis=0, return_inverse=True)
-    before = None
-    for start, _ in stretches(numbers.ravel()):
-        call = call_at(recording, start)
-        rule = str(call.memory.get(RULE_IN_USE, ""))
-        if (call.skill, call.driver, rule) == before:
-            continue
-        before = call.skill, call.driver, rule
-        because = f"rule {rule}" if rule else ""
-        said = {"skill": call.skill, "driver": call.driver, "because": because, "rule": rule}
-        yield {"time": float(recording.at("time", start)), **said}
+    for change in changes_of(recording):
+        yield change._asdict() | {"because": f"rule {change.rule}" if change.rule else ""}
 
 
 def moves_of(recording: Recording, scene: Scene) -> list[dict[str, Any]]:
