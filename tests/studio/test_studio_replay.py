@@ -56,9 +56,7 @@ def test_no_name_breaks_out_of_the_page(recording: Recording, tmp_path: Path):
     (tmp_path / TEMPLATE).write_text(f"<html>{PLACE}</script></html>", encoding="utf-8")
     evil = replace(recording, scene="<!--</script><script>alert(1)</script>")
     page = replay_page(evil, tmp_path)
-    assert (
-        page.count("</script>") == 1 and page.count("<script") == 2
-    )  # the page's own, and a word in its data
+    assert page.count("</script>") == page.count("<script") == 1 and "<!--" not in page
     data = page.partition(PLACE)[2].rpartition("</script>")[0]
     assert "<!--</script><script>" in json.loads(data)["title"]
 

@@ -63,9 +63,8 @@ def replay_page(recording: Recording, page: Path, scene: Scene | None = None) ->
     before, mark, after = template.read_text(encoding="utf-8").partition(PLACE)
     assert mark, "the built page has a place for a recording"
     data = json.dumps(replay_data(recording.sound(), scene), separators=(",", ":"), allow_nan=False)
-    return (
-        before + mark + data.replace("<", "\\u003c") + after
-    )  # so that no name ends the data, or opens a comment
+    harmless = data.replace("<", "\\u003c")  # no name in it ends the data, or opens a comment
+    return before + mark + harmless + after
 
 
 def replay_data(recording: Recording, scene: Scene | None = None) -> dict[str, Any]:
