@@ -38,7 +38,7 @@ function hold(source: Source, engine: Engine, place: HTMLElement, rig: Rig): () 
 
   const down = (event: PointerEvent) => {
     if (event.button !== 0 || event.target !== place || !drives()) return;
-    const picked = pick(engine, aim(event, place, rig));
+    const picked = pick(engine, aim(event, place, rig), rig);
     from = { x: event.clientX, y: event.clientY, picked };
     if (placing.peek()) return;
     if (picked?.kind === "robot" && picked.robot === engine.watched) drag = new PushDrag(source, engine, place, rig);
@@ -53,7 +53,7 @@ function hold(source: Source, engine: Engine, place: HTMLElement, rig: Rig): () 
     } else if (event.buttons === 0) hover(event);
   };
   const hover = (event: PointerEvent) => {
-    const over = event.target === place && drives() ? pick(engine, aim(event, place, rig)) : null;
+    const over = event.target === place && drives() ? pick(engine, aim(event, place, rig), rig) : null;
     place.classList.toggle("over-robot", over?.kind === "robot" && !placing.peek());
     place.classList.toggle("over-box", over?.kind === "box" && !over.box.fixed && !placing.peek());
     place.classList.toggle("over-ground", over?.kind === "ground" || placing.peek());

@@ -27,15 +27,16 @@ export function aim(event: PointerEvent | WheelEvent, place: HTMLElement, rig: R
   return ray;
 }
 
-/** What a ray meets first; `null` for the sky. */
-export function pick(engine: Engine, aimed: Raycaster): Picked | null {
+/** What a ray meets first in a view; `null` for the sky. A robot is met through what is seen through. */
+export function pick(engine: Engine, aimed: Raycaster, rig: Rig): Picked | null {
   const found: { far: number; what: Picked }[] = [];
   engine.poses.forEach((pose, robot) => {
     const at = onTrunk(engine, robot, aimed);
     if (at) found.push({ far: at.distanceTo(aimed.ray.origin), what: { kind: "robot", robot, at: pose.base.position.clone() } });
   });
   const box = engine.scenery?.boxes.pick(aimed);
-  if (box) {
+  const isClear = box && engine.views.find((view) => view.rig === rig)?.through.shares.has(box.box.id);
+  if (box && !(isClear && found.length)) {
     const at = aimed.ray.at(box.far, new Vector3());
     found.push({ far: box.far, what: { kind: "box", box: box.box, at } });
   }

@@ -1,10 +1,11 @@
 // Boxes that stand in the world, and things that move: one draw, each can be taken hold of.
 
 import {
-  BoxGeometry, Color, DynamicDrawUsage, Group, InstancedMesh, Matrix4, MeshStandardMaterial, Quaternion,
+  BoxGeometry, Color, DynamicDrawUsage, Group, InstancedBufferAttribute, InstancedMesh, Matrix4, Quaternion,
   type Raycaster, Vector3,
 } from "three";
 import type { Box, Thing } from "../protocol";
+import { edged } from "./edged";
 import type { Palette } from "./palette";
 
 const UP = new Vector3(0, 0, 1);
@@ -13,6 +14,8 @@ const turn = new Quaternion();
 const place = new Vector3();
 const size = new Vector3();
 const SPARE = 64;
+/** So many at most are seen through in one view. */
+const MOST_CLEAR = 24;
 
 export type Id = Box["id"];
 
@@ -20,7 +23,9 @@ export class Boxes {
   readonly group = new Group();
   private mesh: InstancedMesh;
   private boxes: Box[];
-  private readonly material = edged();
+  private readonly material = edged(false);
+  private readonly glass = this.made(MOST_CLEAR, true);
+  private hasClear = false;
   private colour = new Color();
   private lightColour = new Color();
   private lit: Id | null = null;
@@ -32,10 +37,14 @@ export class Boxes {
     this.draw();
   }
 
-  private made(most: number): InstancedMesh {
-    const mesh = new InstancedMesh(new BoxGeometry(1, 1, 1), this.material, most);
+  private made(most: number, clear = false): InstancedMesh {
+    const shape = new BoxGeometry(1, 1, 1);
+    const share = new InstancedBufferAttribute(new Float32Array(most).fill(clear ? 0 : 1), 1);
+    shape.setAttribute("share", share.setUsage(DynamicDrawUsage));
+    const mesh = new InstancedMesh(shape, clear ? edged(true) : this.material, most);
     mesh.instanceMatrix.setUsage(DynamicDrawUsage);
-    mesh.castShadow = mesh.receiveShadow = true;
+    mesh.castShadow = mesh.receiveShadow = !clear;
+    if (clear) mesh.count = 0;
     mesh.frustumCulled = false;
     this.group.add(mesh);
     return mesh;
@@ -76,6 +85,34 @@ export class Boxes {
       for (let k = this.boxes.length - 1; k >= 0; k--) if (gone(this.boxes[k])) this.boxes.splice(k, 1);
     }
     this.draw();
+  }
+
+  /** All of them, as they are now. */
+  get all(): readonly Box[] {
+    return this.boxes;
+  }
+
+  /** Shows some boxes, by how clear a share of them is seen, as glass: for one view, before it is drawn. */
+  seeThrough(clear: ReadonlyMap<Id, number>): void {
+    if (!clear.size && !this.hasClear) return;
+    this.hasClear = clear.size > 0;
+    const whole = this.mesh.geometry.getAttribute("share");
+    const parts = this.glass.geometry.getAttribute("share");
+    let count = 0;
+    this.boxes.forEach(({ id }, k) => {
+      const share = clear.get(id);
+      const isClear = share !== undefined && count < MOST_CLEAR;
+      whole.setX(k, isClear ? 0 : 1);
+      if (!isClear) return;
+      this.mesh.getMatrixAt(k, matrix);
+      this.glass.setMatrixAt(count, matrix);
+      this.glass.setColorAt(count, id === this.lit ? this.lightColour : this.colour);
+      parts.setX(count, share);
+      count += 1;
+    });
+    this.glass.count = count;
+    whole.needsUpdate = parts.needsUpdate = this.glass.instanceMatrix.needsUpdate = true;
+    if (this.glass.instanceColor) this.glass.instanceColor.needsUpdate = true;
   }
 
   /** The box that a ray meets first, and how far away. */
@@ -130,37 +167,4 @@ export class Boxes {
 
 function isMoving(id: Id): boolean {
   return typeof id === "string" && id.startsWith("moving ");
-}
-
-/** Faces with edges a little lighter, 8 mm wide whatever the size. */
-function edged(): MeshStandardMaterial {
-  const material = new MeshStandardMaterial({ roughness: 0.8 });
-  material.onBeforeCompile = (shader) => {
-    shader.vertexShader = shader.vertexShader
-      .replace("#include <common>", "#include <common>\nvarying vec3 vIn;\nvarying vec3 vSize;")
-      .replace(
-        "#include <begin_vertex>",
-        `#include <begin_vertex>
-        vIn = position;
-        #ifdef USE_INSTANCING
-        vSize = vec3(length(instanceMatrix[0].xyz), length(instanceMatrix[1].xyz), length(instanceMatrix[2].xyz));
-        #else
-        vSize = vec3(1.0);
-        #endif`,
-      );
-    shader.fragmentShader = shader.fragmentShader
-      .replace("#include <common>", "#include <common>\nvarying vec3 vIn;\nvarying vec3 vSize;")
-      .replace(
-        "#include <color_fragment>",
-        `#include <color_fragment>
-        vec3 toEdge = (0.5 - abs(vIn)) * vSize;
-        // the smallest of the three is the face itself
-        float a = min(min(toEdge.x, toEdge.y), toEdge.z);
-        float c = max(max(toEdge.x, toEdge.y), toEdge.z);
-        float second = toEdge.x + toEdge.y + toEdge.z - a - c;
-        float w = fwidth(second);
-        diffuseColor.rgb *= mix(1.22, 1.0, smoothstep(0.006 - w, 0.006 + w, second));`,
-      );
-  };
-  return material;
 }

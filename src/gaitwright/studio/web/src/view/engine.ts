@@ -12,12 +12,15 @@ import { Quality } from "./quality";
 import { paint, Robots } from "./robots";
 import { Lights, Scenery } from "./scenery";
 import { sameGround } from "./same";
+import type { SeeThrough } from "./see-through";
 import { skyTexture } from "./sky";
 
 export interface View {
   rig: Rig;
   /** Where it is on the page. */
   place: HTMLElement;
+  /** What it sees through. */
+  through: SeeThrough;
 }
 
 export class Engine {
@@ -141,13 +144,17 @@ export class Engine {
     if (!fits && clientWidth > 0) this.renderer.setSize(clientWidth, clientHeight, false);
   }
 
-  private drawView({ rig, place }: View, pose: Pose | null, dt: number): void {
+  private drawView({ rig, place, through }: View, pose: Pose | null, dt: number): void {
     const all = this.canvas.getBoundingClientRect();
     const here = place.getBoundingClientRect();
     if (here.width < 2 || here.height < 2) return;
     rig.update(pose, dt);
     rig.camera.aspect = here.width / here.height;
     rig.camera.updateProjectionMatrix();
+    if (this.scenery) {
+      through.look(this.scenery.boxes.all, rig.camera.position, pose, dt);
+      this.scenery.boxes.seeThrough(through.shares);
+    }
     const [x, y] = [here.left - all.left, all.bottom - here.bottom];
     this.renderer.setViewport(x, y, here.width, here.height);
     this.renderer.setScissor(x, y, here.width, here.height);

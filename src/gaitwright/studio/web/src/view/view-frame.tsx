@@ -7,6 +7,7 @@ import { moveCamera } from "./camera-hand";
 import type { Engine } from "./engine";
 import { type Kind, KINDS, type Rig } from "./rig";
 import { kinds, look, watched } from "./settings";
+import { SeeThrough } from "./see-through";
 import type { Tools } from "./stage";
 
 const NAMES: Record<Kind, string> = {
@@ -26,7 +27,7 @@ export function ViewFrame(props: {
     const made = engine.current;
     if (!made) return;
     const element = place.current!;
-    const view = { rig, place: element };
+    const view = { rig, place: element, through: new SeeThrough() };
     made.views.push(view);
     const letGo = [tools?.hold(made, index, element, rig), moveCamera(element, rig)];
     return () => {
