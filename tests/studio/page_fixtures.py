@@ -172,6 +172,7 @@ def line(studio: Studio) -> Iterator[Line]:
     line = studio.line()
     line.done(do="take")
     line.done(do="resume")
+    line.done(do="mode", mode="plan")
     line.done(do="reset", robot="go2", scene="blocks", seed=0, sight="known", driver="hybrid")
     yield line
     close(line.socket)

@@ -123,7 +123,8 @@ def test_a_motion_is_composed_and_played_back(page: Any, line: Line):
     line.status(lambda said: said["composing"])
     at(page, "composing").wait_for()
     at(page, "skill-pace").click()
-    line.status(lambda said: said["skill"] == "pace")
+    begun = line.status(lambda said: said["skill"] == "pace")["time"]
+    line.status(lambda said: said["time"] > begun + 0.8)
     at(page, "stand").click()
     at(page, "compose").click()
     assert line.status(lambda said: not said["composing"])["composed"] == 2
@@ -230,7 +231,8 @@ def test_a_step_corrected_at_a_block_is_a_rule_that_says_why(page: Any, line: Li
     at(page, "tab-curves").click()
     at(page, "curve-ahead").locator("input").check()
     drag(page, "point-path-4", 0, -25)
-    at(page, "operator").wait_for()
+    at(page, "curve-learn").click()
+    at(page, "curve-learned").wait_for()
     told = line.until(lambda said: said["say"] == "curve" and said["operators"])["operators"]
     assert told[0]["kinds"] == [ahead["kind"]] and told[0]["taught"].startswith("on FL")
     before = line.status()["time"]
