@@ -6,7 +6,6 @@ import webbrowser
 from argparse import Namespace
 from pathlib import Path
 
-from gaitwright.cli.console import remark, working
 from gaitwright.cli.output import check_json, settled, write_json
 from gaitwright.errors import WrongUse
 from gaitwright.studio.page_build import ready_page
@@ -26,6 +25,8 @@ def run(args: Namespace) -> int:
     book = Path(args.skillbook) if args.skillbook else folder / BOOK
     setup = Setup(args.robot, args.scene, args.seed, args.sight, args.driver)
     with RobotProcess(setup, book, folder, begins=args.skillbook is None) as robot:
+        # While it begins: these take a second to import.
+        from gaitwright.cli.console import remark, working  # noqa: PLC0415
         from gaitwright.studio.serving import Serving, serve  # noqa: PLC0415 - an extra
 
         with working("looking for the page", worth_a_line=None):
