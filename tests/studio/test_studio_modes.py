@@ -136,3 +136,18 @@ def test_no_one_else_than_an_apprentice_asks(room: Room, said: list[dict]):
     room.hears(m.Skill(name="trot"))
     room.hears(m.Back())
     assert not waits(said)
+
+
+def test_a_robot_that_was_let_down_is_asked_nothing_but_to_begin_anew(room: Room):
+    room.hears(m.Abort())
+    for word in (
+        m.Go(x=1.0, y=0.0),
+        m.Skill(name="trot"),
+        m.Steer(forward=0.2),
+        m.Push(impulse=0.1, direction=0.0),
+    ):
+        with pytest.raises(WrongUse, match="aborted: the robot is let down: a reset begins another"):
+            room.hears(word)
+    room.hears(m.Reset())
+    room.hears(m.Skill(name="trot"))
+    assert room.status()["over"] is None and room.status()["held"] == "trot"

@@ -135,8 +135,6 @@ class LiveRun:
         guidance = self.session.mind.mission.guidance
         if isinstance(guidance, Steering) and guidance.velocities == ((forward, left, turn),):
             return  # asked again, so that somebody is heard
-        if self.held:
-            self.let_choose()
         self.session.steer(forward, left, turn)
 
     def abort(self) -> None:

@@ -16,7 +16,8 @@ const VERSION = 1;
 const ANSWER_WITHIN = 15_000;
 /** What is seen in physics first may take long where it is done for the first time. */
 const SEEN_WITHIN = 120_000;
-const NO_ENTRY = "no connection: is this the whole address that the studio printed, and is it still open?";
+const NO_STUDIO = "no studio answers here: where it was closed, start it again; this page looks for it";
+const NO_ENTRY = "this is not the whole address of the studio that is open here: open the one that it printed";
 /** Panels ask these by themselves, and show what is refused: the bar below has nothing to do with it. */
 const LOOKS = new Set<Command["do"]>(["why", "curve", "recordings"]);
 const RETRY = [500, 1000, 2000, 4000];
@@ -36,6 +37,7 @@ export class Live implements Source {
   readonly link = signal<Link>("connecting");
   readonly hello = signal<Hello | null>(null);
   readonly role = signal<Role>({ say: "role", role: "watcher", watchers: 0, has_driver: false });
+  readonly lost = signal("");
   readonly closed = signal("");
   readonly world = signal<World | null>(null);
   readonly boxes = signal<Box[]>([]);
@@ -137,18 +139,24 @@ export class Live implements Source {
     };
     socket.onopen = () => {
       this.failures = 0;
-      this.closed.value = "";
+      this.closed.value = this.lost.value = "";
       this.link.value = "open";
     };
     socket.onclose = () => {
       this.link.value = "lost";
       this.role.value = { ...this.role.peek(), role: "watcher" };
-      if (this.failures >= 2 && !this.hello.peek()) this.closed.value = NO_ENTRY;
+      if (this.failures > 0) void this.ask();
       const left = [...this.waiting.values()];
       this.waiting.clear();
       for (const answer of left) answer({ done: false, because: "the connection was lost" });
       setTimeout(() => this.open(), RETRY[Math.min(this.failures++, RETRY.length - 1)]);
     };
+  }
+
+  /** Finds out why there is no connection: a studio that answers does not know this page's token. */
+  private async ask(): Promise<void> {
+    const answers = await fetch(location.pathname, { cache: "no-store" }).then((answer) => answer.ok, () => false);
+    if (this.link.peek() !== "open") this.lost.value = answers ? NO_ENTRY : NO_STUDIO;
   }
 
   private show(data: ArrayBuffer): void {

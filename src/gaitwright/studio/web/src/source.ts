@@ -14,6 +14,8 @@ export interface Source {
   readonly link: ReadonlySignal<Link>;
   readonly hello: ReadonlySignal<Hello | null>;
   readonly role: ReadonlySignal<Role>;
+  /** Why there is no connection, and what to do; "" while there is one. */
+  readonly lost: ReadonlySignal<string>;
   /** Why the studio has ended; "" while it has not. */
   readonly closed: ReadonlySignal<string>;
   readonly world: ReadonlySignal<World | null>;

@@ -25,6 +25,12 @@ test("a ray meets the ground where it is", () => {
   expect(heights.hit([9, 9, 3], [0, 0, -1])).toBeNull();
 });
 
+test("a steep ray meets level ground from wherever it begins", () => {
+  const level = new Float32Array([-9, -9, 0, 9, -9, 0, 9, 9, 0, -9, 9, 0]);
+  const heights = new Heights(level, new Uint32Array([0, 1, 2, 0, 2, 3]));
+  for (let high = 1; high < 6; high += 0.037) expect(heights.hit([0.3, 0.2, high], [0, 0, -1])).toBeCloseTo(high, 2);
+});
+
 test("normals are sharp at the step and point up on the level", () => {
   const { normal, position, index } = creased(POINTS, FACES);
   const up = (corner: number) => normal[3 * index[corner] + 2];

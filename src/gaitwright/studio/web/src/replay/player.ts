@@ -20,6 +20,7 @@ export class Player implements Source {
   readonly status: ReadonlySignal<Status>;
   readonly layout: ReadonlySignal<Layout>;
   readonly role = signal<Role>({ say: "role", role: "watcher", watchers: 0, has_driver: false });
+  readonly lost = signal("");
   readonly closed = signal("");
   readonly moved: ReadonlySignal<Moved | null>;
   readonly scan = nothing;

@@ -10,6 +10,7 @@ import { Shown } from "../teach/shown";
 import { Stage } from "../view/stage";
 import { BottomBar } from "./bottom-bar";
 import { Dock } from "./dock";
+import { Notice } from "./notice";
 import { TopBar } from "./top-bar";
 import { dockWidth } from "./docks";
 
@@ -24,6 +25,7 @@ export function App({ source }: { source: Source }) {
       <Dock side="left" panels={panels} source={source} />
       <main class="middle">
         <Stage source={source} tools={hands} />
+        <Notice source={source} />
         <Shown source={source} />
       </main>
       <Dock side="right" panels={panels} source={source} />

@@ -100,7 +100,7 @@ function Message({ source }: { source: Source }) {
     };
   }, [source]);
   const status = source.status.value;
-  const bad = source.closed.value || refusal.value || (status?.fell ? status.over : "") || status?.halt || status?.no_way || "";
+  const bad = source.lost.value || source.closed.value || refusal.value || (status?.fell ? status.over : "") || status?.halt || status?.no_way || "";
   const text = bad || remark.value || status?.over || status?.pause || status?.outcome || status?.because || "";
   return (
     <span class={`message ${bad ? "bad" : ""}`} title={text} data-testid="message">
