@@ -8,10 +8,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from mcap.reader import make_reader
 from rooms import laps, opened
 
-from gaitwright.errors import WrongUse
+from gaitwright.errors import BadFile, WrongUse
+from gaitwright.ground.scene import Scene
+from gaitwright.record.mcap_export import export_mcap
+from gaitwright.record.notes import Note
 from gaitwright.record.recording import Recording, load
+from gaitwright.record.scene_of import scene_of
 from gaitwright.studio import messages as m
 from gaitwright.studio.replay import PLACE, TEMPLATE, replay_data, replay_page
 
@@ -66,3 +71,64 @@ def test_what_cannot_be_shown_is_told(recording: Recording, tmp_path: Path):
         replay_page(recording, tmp_path / "nowhere")
     with pytest.raises(WrongUse, match="no moment"):
         replay_data(replace(recording, data=recording.data[:0, :]))
+
+
+# --- what a person did ------------------------------------------------------------------------------
+@pytest.fixture
+def told(tmp_path: Path) -> Recording:
+    """A box is dragged, and on at once; another driver is asked; what is done is right; a skill is held."""
+    with opened(tmp_path, []) as room:
+        before = room.hears(m.PlaceBox(x=3.0, y=-2.0, lx=0.3, ly=0.3, height=0.2))["thing"]
+        laps(room, 0.1)
+        room.hears(m.Record(on=True))
+        laps(room, 0.3)
+        room.hears(m.Move(thing=before, x=3.0, y=2.0))
+        laps(room, 0.1)
+        room.hears(m.Move(thing=before, x=3.5, y=2.0))
+        room.hears(m.Drive(driver="kinematic"))
+        room.hears(m.Ok())
+        laps(room, 0.5)
+        room.hears(m.Skill(name="trot"))
+        laps(room, 0.3)
+        return load(tmp_path / room.hears(m.Record(on=False))["recording"])
+
+
+def test_a_recording_says_what_a_person_did(told: Recording):
+    kinds = [note.kind for note in told.notes]
+    assert kinds == ["world", "world", "mode", "lesson", "mode"]
+    assert [note.time for note in told.notes] == sorted(note.time for note in told.notes)
+    assert "(3.50, 2.00)" in told.notes[1].sentence and "kinematic" in told.notes[2].sentence
+    assert replay_data(told)["notes"][2] == told.notes[2]._asdict()
+
+
+def test_a_box_is_seen_where_it_was_at_the_time(told: Recording):
+    scene, begins, ends = scene_of(told), float(told["time"][0]), float(told["time"][-1])
+    assert isinstance(scene, Scene)
+
+    def places(time: float) -> set[tuple[float, float]]:
+        now = scene.at(time)
+        return {solid.centre for solid in (*now.boxes, *now.things)}
+
+    assert (3.0, -2.0) in places(begins) and (3.0, -2.0) not in places(ends)
+    assert (3.5, 2.0) in places(ends) and (3.5, 2.0) not in places(begins)
+    assert len(places(begins)) == len(places(ends))
+    assert (3.0, 2.0) not in places(ends), "it was dragged on at once"
+
+
+def test_topics_for_what_a_person_did_open_in_foxglove(told: Recording, tmp_path: Path):
+    path, found = export_mcap(told, tmp_path / "told.mcap"), {}
+    with path.open("rb") as file:
+        for _, channel, message in make_reader(file).iter_messages():
+            found.setdefault(channel.topic, []).append(message.data)
+    assert len(found["/gaitwright/world"]) == 2 and len(found["/gaitwright/mode"]) == 2
+    (lesson,) = map(json.loads, found["/gaitwright/lesson"])
+    assert lesson == {"time": told.notes[3].time, "sentence": told.notes[3].sentence}
+
+
+def test_notes_of_a_file_are_not_believed(told: Recording, tmp_path: Path):
+    for notes in ((Note(1.0, "mode", "x" * 5000),), (Note(1.0, "", "no kind"),)):
+        path = replace(told, notes=notes).save(tmp_path / "evil.npz")
+        with pytest.raises(BadFile):
+            load(path)
+    shown = load(replace(told, notes=(Note(1.0, "mode", "\x1b[2J"),)).save(tmp_path / "red.npz"))
+    assert "\x1b" not in shown.notes[0].sentence

@@ -10,12 +10,14 @@ from msgspec import Meta
 
 from gaitwright.errors import printable
 from gaitwright.ground.moving_entries import MOST_MOVERS
-from gaitwright.ground.scene_entries import ShapeEntry
+from gaitwright.ground.scene_entries import BoxShape, ShapeEntry
 from gaitwright.model.robot import Robot, robot_of
 from gaitwright.perception.fault_words import Fault
 from gaitwright.record.channels import MEMORY, MOST_MEMORIES, SITUATION, Held, always, columns_of
+from gaitwright.record.notes import MOST_NOTES, Note
 
 MOST_LEGS = 16
+MOST_BOXES = 2500
 LARGEST = 1e6
 """No number of a robot is as large as this, in SI units."""
 BLOWN_UP = 1e12
@@ -50,6 +52,19 @@ class Noticed(msgspec.Struct, frozen=True):
         return Fault(printable(self.kind), leg, joint, self.since, self.noticed, *words)
 
 
+class Noted(msgspec.Struct, frozen=True):
+    """A `Note`."""
+
+    time: float
+    kind: Name
+    sentence: Annotated[str, Meta(max_length=1000)]
+
+    @property
+    def note(self) -> Note:
+        """It, in letters that do nothing to a terminal."""
+        return Note(self.time, printable(self.kind), printable(self.sentence))
+
+
 class Header(msgspec.Struct, frozen=True):
     """The JSON beside the channels."""
 
@@ -66,6 +81,8 @@ class Header(msgspec.Struct, frozen=True):
     memories: Annotated[tuple[Facts, ...], Meta(max_length=MOST_MEMORIES)] = ()
     trip: Annotated[int, Meta(ge=1)] | None = None
     movers: Annotated[tuple[ShapeEntry, ...], Meta(max_length=MOST_MOVERS)] = ()
+    boxes: Annotated[tuple[BoxShape, ...], Meta(max_length=MOST_BOXES)] | None = None
+    notes: Annotated[tuple[Noted, ...], Meta(max_length=MOST_NOTES)] = ()
 
 
 def header_of(content: bytes) -> tuple[Robot, dict[str, Any]]:
@@ -80,6 +97,8 @@ def header_of(content: bytes) -> tuple[Robot, dict[str, Any]]:
         "memories": tuple(map(held, entry.memories)),
         "faults": tuple(noticed.fault for noticed in entry.faults),
         "movers": tuple(thing.mover(thing.solid()[0]) for thing in entry.movers),
+        "boxes": None if entry.boxes is None else tuple(box.solid()[0] for box in entry.boxes),
+        "notes": tuple(noted.note for noted in entry.notes),
     }
     robot = robot_of(dict(entry.robot))
     fault = next(faults_of(robot), None)

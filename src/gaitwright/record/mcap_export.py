@@ -3,13 +3,14 @@
 Topics: `/joint_states` (sensor_msgs/JointState: angles, rates, torques), `/tf` (tf2_msgs/TFMessage: world →
 base → the links of every leg), `/tf_static` (their feet), `/robot_description` (std_msgs/String: a URDF with
 these links and joints), `/gaitwright/scene` (foxglove.SceneUpdate: ground, boxes, the way, what moves),
-`/gaitwright/changes` (JSON: skill, driver and rule, whenever one changes), `/gaitwright/scan` (JSON: the
-ground ahead, whenever it looks different), and those of `mcap_previews`. Needs the extra `record`.
+`/gaitwright/changes` (JSON: skill, driver and rule, whenever one changes), `/gaitwright/mode`, `/lesson`,
+`/edit` and `/world` (JSON: what a person did), `/gaitwright/scan` (JSON: the ground ahead, whenever it looks
+different), and those of `mcap_previews`. Needs the extra `record`.
 """
 
 import json
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
@@ -27,9 +28,10 @@ from gaitwright.plant.mujoco.world import JOINTS
 from gaitwright.record.changes import Change, changes_of
 from gaitwright.record.channels import SCAN
 from gaitwright.record.mcap_previews import write_previews
+from gaitwright.record.notes import NOTED
 from gaitwright.record.recording import Recording
 from gaitwright.record.rows import parts
-from gaitwright.record.scene_of import scene_of
+from gaitwright.record.scene_of import rearranged, scene_of
 from gaitwright.record.scenery import SCHEMA, scene_update, things_update, way_update
 from gaitwright.signals import Scan
 
@@ -82,6 +84,12 @@ CHANGES = {
     "properties": {"time": {"type": "number"}, **{name: {"type": "string"} for name in Change._fields[1:]}},
     "required": list(Change._fields),
 }
+NOTES = {
+    "title": "gaitwright.Note",
+    "type": "object",
+    "properties": {"time": {"type": "number"}, "sentence": {"type": "string"}},
+    "required": ["time", "sentence"],
+}
 FIELDS = tuple(field.name for field in fields(Scan))
 SCANS = {
     "title": "gaitwright.Scan",
@@ -102,9 +110,10 @@ def export_mcap(recording: Recording, path: str | Path, scene: Scene | None = No
     facts |= {"stopped_because": recording.stopped_because}
     with fitting(path), whole(path) as draft, draft.open("wb") as file, Writer(file) as writer:
         write_description(writer, sound)
-        ground = scene or scene_of(recording)
+        ground = rearranged(scene, recording) if scene else scene_of(recording)
         facts |= write_scene(writer, sound, ground)
         write_changes(writer, sound)
+        write_notes(writer, sound)
         write_scans(writer, sound)
         write_previews(writer, sound, ground)
         write_states(writer, sound)
@@ -123,13 +132,8 @@ def write_scene(writer: Writer, r: Recording, scene: Scene | str) -> dict[str, s
     """Ground, boxes, way, and what moves; a sentence in place of the scene is handed back as a fact."""
     if isinstance(scene, str) and not r.movers:
         return {"ground": f"left out: {scene}"}
-    raw, start = writer._writer, float(r.at("time", 0))
-    schema = raw.register_schema("foxglove.SceneUpdate", "jsonschema", json.dumps(SCHEMA).encode())
-    channel = raw.register_channel("/gaitwright/scene", "json", schema)
-
-    def write(message: dict[str, Any], time: float) -> None:
-        raw.add_message(channel, nanoseconds(time), json.dumps(message).encode(), nanoseconds(time))
-
+    start = float(r.at("time", 0))
+    write = topic(writer, "/gaitwright/scene", "foxglove.SceneUpdate", SCHEMA)
     told, way = {}, way_points(r)
     if isinstance(scene, str):  # what moved is in the recording itself
         told, scene = {"ground": f"left out: {scene}"}, Scene("", Flat())
@@ -174,19 +178,22 @@ def write_states(writer: Writer, r: Recording) -> None:
 
 def write_changes(writer: Writer, r: Recording) -> None:
     """Which skill by which driver and by which rule, whenever one of them changes."""
-    raw = writer._writer  # the ROS 2 writer offers no JSON; the one it wraps does
-    schema = raw.register_schema("gaitwright.Changes", "jsonschema", json.dumps(CHANGES).encode())
-    channel = raw.register_channel("/gaitwright/changes", "json", schema)
+    write = topic(writer, "/gaitwright/changes", "gaitwright.Changes", CHANGES)
     for change in changes_of(r):
-        at = nanoseconds(change.time)
-        raw.add_message(channel, at, json.dumps(change._asdict()).encode(), at)
+        write(change._asdict(), change.time)
+
+
+def write_notes(writer: Writer, r: Recording) -> None:
+    """What a person did, a topic for each kind of thing."""
+    for kind in dict.fromkeys(note.kind for note in r.notes if note.kind in NOTED):
+        write = topic(writer, f"/gaitwright/{kind}", "gaitwright.Note", NOTES)
+        for note in (one for one in r.notes if one.kind == kind):
+            write({"time": note.time, "sentence": note.sentence}, note.time)
 
 
 def write_scans(writer: Writer, r: Recording) -> None:
     """What was seen of the ground ahead, whenever that changes; null for what is out of sight."""
-    raw = writer._writer
-    schema = raw.register_schema("gaitwright.Scan", "jsonschema", json.dumps(SCANS).encode())
-    channel = raw.register_channel("/gaitwright/scan", "json", schema)
+    write = topic(writer, "/gaitwright/scan", "gaitwright.Scan", SCANS)
     before: list[float] = []
     for time, *values in thinned(r, "time", *SCAN):
         scan = [float(value) for value in values]
@@ -196,8 +203,21 @@ def write_scans(writer: Writer, r: Recording) -> None:
         seen = {
             name: value if math.isfinite(value) else None for name, value in zip(FIELDS, scan, strict=True)
         }
+        write({"time": float(time), **seen}, float(time))
+
+
+def topic(writer: Writer, name: str, kind: str, schema: dict[str, Any]) -> Callable[[Any, float], None]:
+    """A topic of JSON messages, and who writes one of a time [s] to it. The ROS 2 writer offers no JSON; the
+    one that it wraps does."""
+    raw = writer._writer
+    described = raw.register_schema(kind, "jsonschema", json.dumps(schema).encode())
+    channel = raw.register_channel(name, "json", described)
+
+    def write(message: Any, time: float) -> None:
         at = nanoseconds(time)
-        raw.add_message(channel, at, json.dumps({"time": float(time), **seen}).encode(), at)
+        raw.add_message(channel, at, json.dumps(message).encode(), at)
+
+    return write
 
 
 def thinned(r: Recording, *names: str, rate: float = RATE) -> Iterator[tuple[Any, ...]]:

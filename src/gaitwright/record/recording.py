@@ -11,14 +11,17 @@ from jaxtyping import Float
 from gaitwright.errors import NoRoom
 from gaitwright.ground.moving import Mover
 from gaitwright.ground.moving_entries import entry_of
+from gaitwright.ground.terrain import Box
 from gaitwright.locomotion import Lap, Mind
 from gaitwright.model.robot import Robot, lists_of
 from gaitwright.numerics.geometry import GRAVITY
 from gaitwright.perception.fault_words import Fault
 from gaitwright.record import metrics as figures
+from gaitwright.record.arrangement import Arrangement
 from gaitwright.record.channels import SITUATION, STATE, Held, Packer, columns_of, shapes, widths
 from gaitwright.record.checked import NAMED, check_rows, header_of, sound_rows
 from gaitwright.record.metrics import Report
+from gaitwright.record.notes import MOST_NOTES, Note
 from gaitwright.record.npz import opened, read_blocks, read_header, write_npz
 from gaitwright.record.previews import Previewer, read_previews, series_of
 from gaitwright.record.rows import BLOCK, Lazy, Table, Writer, filled, first_rows, parts
@@ -57,6 +60,10 @@ class Recording:
     """What moved, appeared or vanished in the scene that the run began in: how, and when."""
     previews: Float[np.ndarray, "moments numbers"] | Table | None = None
     """What the terrain scanner held some times a second (`record.previews`); `None`: nobody asked for it."""
+    boxes: tuple[Box, ...] | None = None
+    """Those that stood there all the time, where a person had them moved; `None`: those of the scene."""
+    notes: tuple[Note, ...] = ()
+    """What a person did meanwhile."""
 
     def __len__(self) -> int:
         """Number of ticks."""
@@ -174,6 +181,9 @@ class Recording:
         own["faults"] = [asdict(fault) for fault in self.faults]
         own["memories"] = [dict(held) for held in self.memories]
         own["movers"] = [entry_of(mover) for mover in self.movers]
+        own["notes"] = [note._asdict() for note in self.notes]
+        if self.boxes is not None:
+            own["boxes"] = [entry_of(Mover(box)) for box in self.boxes]
         return own | {"robot": lists_of(self.robot)}
 
 
@@ -196,6 +206,14 @@ class Recorder:
         self.laps = 0
         self.trip: int | None = None
         self.no_room: str | None = None
+        self.arrangement: Arrangement | None = None
+        """The boxes, where a person may move them."""
+        self.notes: list[Note] = []
+
+    def note(self, note: Note) -> None:
+        """Something that a person did; of very many the first ones."""
+        if len(self.notes) < MOST_NOTES:
+            self.notes.append(note)
 
     def add(self, lap: Lap, mind: Mind | None = None) -> None:
         """Takes one lap, and what the terrain scanner holds after it where the mind that it left is told.
@@ -217,7 +235,7 @@ class Recorder:
 
     def finish(self) -> Recording:
         """The recording of what was taken so far."""
-        last = self.last
+        last, arranged = self.last, self.arrangement
         return Recording(
             self.robot,
             self.scene,
@@ -232,8 +250,10 @@ class Recorder:
             faults=last.faults if last else (),
             memories=tuple(self.packer.memories),
             trip=self.trip if self.trip != self.laps else None,
-            movers=self.movers,
+            movers=(*self.movers, *(arranged.movers if arranged else ())),
             previews=self.previewer.rows(),
+            boxes=arranged.still if arranged else None,
+            notes=tuple(self.notes),
         )
 
 

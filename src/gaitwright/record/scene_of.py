@@ -1,5 +1,7 @@
 """Scenes in the size of a robot, and the scene that a recording was made in."""
 
+from dataclasses import replace
+
 from gaitwright.errors import GaitwrightError
 from gaitwright.ground.scene import Scene, load_scene
 from gaitwright.model.robot import Robot
@@ -27,6 +29,12 @@ def scene_of(recording: Recording) -> Scene | str:
     file it has the name alone.
     """
     try:
-        return scene_for(recording.robot, recording.scene, recording.seed)
+        return rearranged(scene_for(recording.robot, recording.scene, recording.seed), recording)
     except GaitwrightError as error:
         return str(error)
+
+
+def rearranged(scene: Scene, recording: Recording) -> Scene:
+    """A scene with what stood and moved in it while it was recorded."""
+    boxes = scene.boxes if recording.boxes is None else recording.boxes
+    return replace(scene, boxes=boxes, movers=recording.movers)

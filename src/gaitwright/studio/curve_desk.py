@@ -18,9 +18,10 @@ FOLDER = "leg-cycles"
 class CurveDesk:
     """Curves of the robot that runs. `say` is told of every edit, and when the legs follow it."""
 
+    run: LiveRun
+
     def __init__(self, ledger: Ledger, folder: Path, say: Callable[[dict[str, Any]], None]) -> None:
         self.ledger, self.folder, self.say = ledger, folder, say
-        self.run: LiveRun | None = None
         self.curves: Curves | None = None
         self.edits = 0
         """Counts what changed the curves, so that a page knows when to look again."""
@@ -40,7 +41,7 @@ class CurveDesk:
     def after(self) -> None:
         """To be called after every lap: an edit takes effect when a cycle begins."""
         curves, session = self.at_work()
-        if self.run is not None and self.run.lowering is None:
+        if self.run.lowering is None:
             curves.after(session)
         self.tell()
 
@@ -61,6 +62,8 @@ class CurveDesk:
             answer = curves.edit_ahead(said.skill, leg, said.points, session)
         else:
             answer = curves.edit(said.kind, said.skill, leg, said.points, said.mirror, session)
+        what = f"{said.kind} of {leg} in {said.skill}"
+        self.run.note("edit", answer.get("learned") or f"{what}: {answer['because'] or 'other points'}")
         if answer["taken"]:
             self.changed()
         return answer | {"curve": curves.show(said.kind, said.skill, leg, session)}
@@ -68,11 +71,13 @@ class CurveDesk:
     def undo(self, said: m.Undo) -> None:
         curves, session = self.at_work()
         curves.undo(session)
+        self.run.note("edit", "undone")
         self.changed()
 
     def redo(self, said: m.Redo) -> None:
         curves, session = self.at_work()
         curves.redo(session)
+        self.run.note("edit", "done again")
         self.changed()
 
     def save(self, said: m.Save) -> dict[str, Any]:
@@ -81,7 +86,7 @@ class CurveDesk:
 
     # --- helpers --------------------------------------------------------------------------------------
     def at_work(self) -> tuple[Curves, Session]:
-        assert self.curves is not None and self.run is not None, "a room attends to a run from its start"
+        assert self.curves is not None, "a room attends to a run from its start"
         return self.curves, self.run.session
 
     def leg(self, number: int) -> str:
@@ -101,6 +106,9 @@ class CurveDesk:
         curves, _ = self.at_work()
         now = self.edits, curves.change.is_pending
         if now != self.told:
+            was_pending = self.told is not None and self.told[1]
             self.told = now
             edits, pending = now
+            if was_pending and not pending:
+                self.run.note("edit", "the legs follow what was edited")
             self.say({"say": "curve", "edits": edits, "pending": pending, "operators": curves.operators})

@@ -79,9 +79,12 @@ class DrivingDesk:
     def go(self, said: m.Go) -> None:
         self.steered_at = None
         self.run.go(said.x, said.y, said.then)
+        self.run.note("mode", f"{'then ' if said.then else ''}to ({said.x:.2f}, {said.y:.2f})")
 
     def steer(self, said: m.Steer) -> None:
         self.run.steer(said.forward, said.left, said.turn)
+        if self.steered_at is None:
+            self.run.note("mode", "a person steers")
         self.steered_at = monotonic()
 
     def stand(self, said: m.Stand) -> None:
@@ -92,33 +95,42 @@ class DrivingDesk:
         self.steered_at = None
         if not said.name:
             self.run.let_choose()
+            self.run.note("mode", "rules choose")
             return
         # Of an apprentice: what she does here may be right here. She says whether.
         word = m.Right(skill=said.name, speed=said.speed)
         shown = self.teaching.right(word) if self.mode == "apprentice" else None
         self.run.hold(said.name, said.speed)
+        self.run.note("mode", f"skill {said.name} is held")
         if shown is not None:
             self.teaching.propose(shown)
 
     def drive(self, said: m.Drive) -> None:
         self.run.drive(said.driver)
+        self.run.note("mode", f"driver {said.driver}")
 
     def set_mode(self, said: m.SetMode) -> None:
         self.mode = said.mode
+        self.run.note("mode", f"mode {said.mode}")
 
     def abort(self, said: m.Abort) -> None:
         self.steered_at = None
         self.score.stop()
+        self.run.note("mode", "aborted")
         self.run.abort()
 
     def push(self, said: m.Push) -> None:
         self.run.push(said.impulse, said.direction)
+        self.run.note("world", f"pushed by {said.impulse:.2f} N·s/kg")
 
     def compose(self, said: m.Compose) -> dict[str, Any] | None:
+        self.run.note("mode", "a motion is composed" if said.on else "the motion is whole")
         if said.on:
             self.score.begin(self.run.time)
             return None
         return {"words": self.score.end(self.run.time)}
 
     def play(self, said: m.Play) -> dict[str, Any]:
-        return {"seconds": self.score.play(self.run.time)}
+        seconds = self.score.play(self.run.time)
+        self.run.note("mode", f"the motion is played, {seconds:.1f} s")
+        return {"seconds": seconds}

@@ -1,13 +1,16 @@
 """Who watches and who drives: what the host says goes to all, what a driver asks goes to the host.
 
 Latest wins: of frames, and of each kind of thing that is said to everybody, one who reads slowly gets the
-newest and never a queue of old ones. Answers to what one asked are kept, up to `MOST_ANSWERS`.
+newest and never a queue of old ones. Answers to what one asked are kept, up to `MOST_ANSWERS`. Of the ground
+the robot knows what is around it and pages gather that, so one who comes later is told what was seen before.
 """
 
 import asyncio
 import itertools
 import json
+import math
 from collections.abc import Callable
+from typing import Any
 
 from gaitwright.errors import WrongUse
 from gaitwright.studio.messages import Anyone, Release, Reset, Take, id_of, message_of
@@ -15,6 +18,8 @@ from gaitwright.studio.messages import Anyone, Release, Reset, Take, id_of, mess
 MOST_ANSWERS, MOST_WATCHERS = 256, 64
 KINDS = ("hello", "world", "boxes", "rules", "status", "scan", "seen", "moved", "curve", "tried", "closed")
 """Of what is said to everybody, one who comes later is told the last of each of these, in this order."""
+APART, MOST_PAST = 3.0, 400
+"""What was seen of the ground is kept for every so many metres of the way, of so many places."""
 
 
 class Member:
@@ -26,12 +31,16 @@ class Member:
         self.frame: bytes | None = None
         self.said: dict[str, str] = {}
         self.answers: list[str] = []
+        self.past: list[str] = []
+        """What was seen of the ground before."""
 
     def take(self) -> list[str | bytes]:
         """All of it, and nothing is left."""
-        texts: list[str | bytes] = [*self.answers, *self.said.values()]
+        texts: list[str | bytes] = [*self.answers]
+        for kind, text in self.said.items():
+            texts += [*self.past, text] if kind == "seen" else [text]
         frames = [] if self.frame is None else [self.frame]
-        self.answers, self.said, self.frame = [], {}, None
+        self.answers, self.said, self.past, self.frame = [], {}, [], None
         self.news.clear()
         return texts + frames
 
@@ -46,6 +55,8 @@ class Hub:
         self.driver: int | None = None
         self.last: dict[str, str] = {}
         self.last_frame: bytes | None = None
+        self.past: dict[tuple[int, int], str] = {}
+        """What was seen of the ground, by where that was."""
         self.numbers = itertools.count(1)
         self.closed = False
         """Whether the host is gone."""
@@ -61,6 +72,7 @@ class Hub:
             self.driver = member.number
         self.tell_roles()
         member.said |= {kind: self.last[kind] for kind in KINDS if kind in self.last}
+        member.past = [seen for seen in self.past.values() if seen is not self.last.get("seen")]
         member.frame = self.last_frame
         return member
 
@@ -125,15 +137,28 @@ class Hub:
         if who:
             self.answer(who, text)
             return
-        kind = str(json.loads(text)["say"])
+        said = json.loads(text)
+        kind = str(said["say"])
         if kind == "closed" and self.closed:
             return  # what it said itself says more
         self.last[kind] = text
+        self.remember(kind, said, text)
         self.closed = self.closed or kind == "closed"
         for member in self.members.values():
             member.said.pop(kind, None)  # it stands behind what was said before it
             member.said[kind] = text
             member.news.set()
+
+    def remember(self, kind: str, said: dict[str, Any], text: str) -> None:
+        """Keeps what was seen of the ground, until another run begins."""
+        if kind == "hello":
+            self.past = {}
+        elif kind == "seen":
+            place = math.floor(said["x"] / APART), math.floor(said["y"] / APART)
+            self.past.pop(place, None)
+            self.past[place] = text
+            if len(self.past) > MOST_PAST:
+                del self.past[next(iter(self.past))]
 
     def answer(self, who: int, text: str) -> None:
         """Something to one page, if it is still there."""

@@ -20,6 +20,8 @@ from gaitwright.navigation.room_needed import half_width
 from gaitwright.perception.known_ground import map_of
 from gaitwright.plant.registry import make_plant
 from gaitwright.plant.seeing import SeeingPlant
+from gaitwright.record.arrangement import Arrangement
+from gaitwright.record.notes import Note
 from gaitwright.record.recording import Recorder
 from gaitwright.record.scene_of import scene_for
 from gaitwright.session import DT, Push, Session
@@ -108,6 +110,16 @@ class LiveRun:
             if self.recorder is not None:
                 self.recorder.add(lap, self.session.mind if self.lowering is None else None)
         return lap
+
+    def record(self) -> None:
+        """Laps from the next one on, and what a person does meanwhile, are kept in a `recorder`."""
+        self.recorder = Recorder(self.robot, self.scene.name, self.setup.seed, DT, self.scene.movers)
+        self.recorder.arrangement = Arrangement(self.scene.boxes, self.time)
+
+    def note(self, kind: str, sentence: str) -> None:
+        """Something that a person did, for who looks at a recording (`record.notes`)."""
+        if self.recorder is not None:
+            self.recorder.note(Note(self.time, kind, sentence))
 
     @property
     def over(self) -> str | None:
@@ -219,6 +231,8 @@ class LiveRun:
         scene = replace(self.scene, boxes=tuple(boxes.values()))
         self.session.rearrange(scene)
         self.scene, self.boxes = scene, boxes
+        if self.recorder is not None and self.recorder.arrangement is not None:
+            self.recorder.arrangement.rearranged(scene.boxes, self.time)
 
     def check_going(self) -> None:
         """Raises `WrongUse` where the run is over."""

@@ -19,7 +19,7 @@ Place = Annotated[float, Meta(ge=-10_000.0, le=10_000.0)]
 Rate = Annotated[float, Meta(ge=-100.0, le=100.0)]
 """[m/s] or [rad/s]"""
 Angle = Annotated[float, Meta(ge=-2.0 * math.pi, le=2.0 * math.pi)]
-Length = Annotated[float, Meta(gt=0.0, le=100.0)]
+Length = Annotated[float, Meta(ge=0.001, le=100.0)]
 Name = Annotated[str, Meta(max_length=200)]
 Number = Annotated[float, Meta(ge=-1e6, le=1e6)]
 Points = Annotated[list[Annotated[list[Number], Meta(min_length=3, max_length=4)]], Meta(max_length=128)]

@@ -6,8 +6,6 @@ from threading import Thread
 from typing import Any
 
 from gaitwright.errors import WrongUse
-from gaitwright.record.recording import Recorder
-from gaitwright.session import DT
 from gaitwright.studio import messages as m
 from gaitwright.studio.live_run import LiveRun
 from gaitwright.studio.page_build import PAGE
@@ -38,7 +36,7 @@ class RecordingDesk:
             raise WrongUse("it is recorded already" if said.on else "nothing is recorded now")
         if not said.on:
             return self.end()
-        run.recorder = Recorder(run.robot, run.scene.name, run.setup.seed, DT, run.scene.movers)
+        run.record()
         return None
 
     def end(self) -> dict[str, Any] | None:

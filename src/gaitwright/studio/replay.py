@@ -1,17 +1,18 @@
 """Recording → one HTML page with all in it, which opens by a double click and can be sent to a colleague.
 
-The page is the studio's own, built as one file; a recording is put into it as JSON, its rows as in `frames`,
-but for what no recording tells (where feet should be, and where they are to land).
+The page is the studio's own, built as one file; a recording is put into it as JSON: its rows as in `frames`,
+but for what no recording tells (where feet should be, and where they are to land), and its world as
+`shown.world_shown` has it, both deflated.
 """
 
 import base64
 import json
 import math
 import zlib
-from collections.abc import Iterator
-from dataclasses import asdict, replace
+from collections.abc import Iterable, Iterator
+from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from jaxtyping import Float
@@ -22,7 +23,7 @@ from gaitwright.ground.scene import Scene
 from gaitwright.ground.terrain import Flat
 from gaitwright.record.changes import changes_of
 from gaitwright.record.recording import Recording
-from gaitwright.record.scene_of import scene_of
+from gaitwright.record.scene_of import rearranged, scene_of
 from gaitwright.studio.frames import columns_of
 from gaitwright.studio.shown import things_shown, world_shown
 
@@ -31,8 +32,8 @@ RATE = 50.0
 MOST_ROWS = 60_000
 MOVES = 10.0
 """So many times a second it is said where moving things are."""
+T = TypeVar("T")
 TEMPLATE, PLACE = "replay.html", '<script type="application/json" id="recording">'
-
 
 TOLD = (
     "time", "position_w", "orientation_wb", "velocity_w", "angular_velocity_b", "q", "tau", "load", "stance",
@@ -71,18 +72,20 @@ def replay_data(recording: Recording, scene: Scene | None = None) -> dict[str, A
     """All that a page shows of a recording, as plain JSON values."""
     if not len(recording):
         raise WrongUse("this recording has no moment to show")
-    ground = scene_shown_of(recording) if scene is None else scene
+    ground = scene_shown_of(recording) if scene is None else rearranged(scene, recording)
     step = max(1, round(1.0 / (RATE * recording.dt)), math.ceil(len(recording) / MOST_ROWS))
     rows = rows_of(recording, step)
+    world = world_shown(ground, [recording.robot], dict(enumerate(ground.boxes)))
     return {
         "title": f"{recording.robot.name} in {recording.scene or 'a scene'}: {recording.stopped_because}",
-        "world": world_shown(ground, [recording.robot], dict(enumerate(ground.boxes))),
+        "world": pressed(json.dumps(world, allow_nan=False).encode()),
         "columns": told_columns(recording.robot.n),
         "drivers": list(recording.drivers),
         "rate": 1.0 / (step * recording.dt),
         "count": len(rows),
-        "rows": packed(rows),
+        "rows": pressed(np.ascontiguousarray(rows, "<f4").tobytes()),
         "events": list(events_of(recording)),
+        "notes": [note._asdict() for note in recording.notes],
         "report": finite(asdict(recording.report())),
         "movers": moves_of(recording, ground),
     }
@@ -91,8 +94,7 @@ def replay_data(recording: Recording, scene: Scene | None = None) -> dict[str, A
 def scene_shown_of(recording: Recording) -> Scene:
     """The scene that a recording names, with what moved in it; a plane where it is not to be had."""
     scene = scene_of(recording)
-    known = Scene(recording.scene, Flat()) if isinstance(scene, str) else scene
-    return replace(known, movers=recording.movers)
+    return rearranged(Scene(recording.scene, Flat()), recording) if isinstance(scene, str) else scene
 
 
 def told_columns(legs: int) -> list[dict[str, str | int]]:
@@ -113,11 +115,10 @@ def rows_of(recording: Recording, step: int) -> Float[np.ndarray, "moments width
     return np.concatenate(columns, axis=1).astype(np.float32)
 
 
-def packed(rows: np.ndarray) -> str:
-    """Rows as base64 of deflated 32-bit numbers, little-endian."""
+def pressed(plain: bytes) -> str:
+    """Base64 of what is left of bytes when they are deflated."""
     press = zlib.compressobj(9, zlib.DEFLATED, -zlib.MAX_WBITS)
-    pressed = press.compress(np.ascontiguousarray(rows, "<f4").tobytes()) + press.flush()
-    return base64.b64encode(pressed).decode()
+    return base64.b64encode(press.compress(plain) + press.flush()).decode()
 
 
 def events_of(recording: Recording) -> Iterator[dict[str, Any]]:
@@ -133,7 +134,17 @@ def moves_of(recording: Recording, scene: Scene) -> list[dict[str, Any]]:
     step = max(1, round(1.0 / (MOVES * recording.dt)), math.ceil(len(recording) / MOST_ROWS))
     times = recording["time"][::step].tolist()
     there = ((time, scene.at(time)) for time in times)
-    return [{"time": time, "things": things_shown(now, now.things)["things"]} for time, now in there]
+    told = ((time, things_shown(now, now.things)["things"]) for time, now in there)
+    return [{"time": time, "things": things} for time, things in changed(told)]
+
+
+def changed(told: Iterable[tuple[float, T]]) -> Iterator[tuple[float, T]]:
+    """Of what is told time after time, what is not as it was."""
+    before = None
+    for time, now in told:
+        if now != before:
+            yield time, now
+        before = now
 
 
 def finite(value: Any) -> Any:

@@ -121,6 +121,7 @@ class TeachingDesk:
         tried = self.open
         self.settle()
         self.live.keep(tried)
+        self.run.note("lesson", f"{tried.told.id}: {sentence_of(tried)}")
         return self.learned(tried.told.id)
 
     def back(self, said: m.Back) -> None:
@@ -131,6 +132,7 @@ class TeachingDesk:
         """Takes a lesson back, the last one where none is named."""
         name, _ = self.live.forget(said.lesson)
         self.settle()
+        self.run.note("lesson", f"{name} is taken back")
         return self.learned(name)
 
     def learned(self, lesson: str) -> dict[str, Any]:
@@ -176,13 +178,18 @@ def tried_shown(tried: Tried) -> dict[str, Any]:
     """What a lesson would do."""
     return {
         "lesson": tried.told.id,
-        "sentence": f"{said_of(tried.told.action)} is right here",
+        "sentence": sentence_of(tried),
         "moves": [event.why for event in tried.taken.events][:HISTORY],
         "followed": tried.is_followed,
         "stretches": [stretch.sentence for stretch in tried.stretches][:HISTORY],
         "broken": [told.id for told in tried.broken],
         "mended": [told.id for told in tried.mended],
     }
+
+
+def sentence_of(tried: Tried) -> str:
+    """What a lesson says."""
+    return f"{said_of(tried.told.action)} is right here"
 
 
 def tree_shown(tree: FeatureTree) -> dict[str, Any]:

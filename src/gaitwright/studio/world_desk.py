@@ -25,13 +25,17 @@ class WorldDesk:
 
     def place(self, said: m.PlaceBox) -> dict[str, Any]:
         number = self.run.place(Box(said.x, said.y, said.yaw, said.lx, said.ly, said.height))
+        size = f"{said.lx:.2f} × {said.ly:.2f} × {said.height:.2f} m"
+        self.run.note("world", f"box {number} of {size} is placed at ({said.x:.2f}, {said.y:.2f})")
         self.tell()
         return {"thing": number}
 
     def move(self, said: m.Move) -> None:
         self.run.move(said.thing, said.x, said.y, said.yaw)
+        self.run.note("world", f"box {said.thing} is moved to ({said.x:.2f}, {said.y:.2f})")
         self.tell()
 
     def remove(self, said: m.Remove) -> None:
         self.run.remove(said.thing)
+        self.run.note("world", f"box {said.thing} is taken away")
         self.tell()

@@ -234,7 +234,8 @@ export type Answer = { done: true; more: Record<string, unknown> } | { done: fal
 /** What a replay page carries in `<script type="application/json" id="recording">`. */
 export interface Embedded {
   title: string;
-  world: World;
+  /** base64 of deflate-raw-compressed JSON of a `World` */
+  world: string;
   columns: Column[];
   drivers: string[];
   /** rows per second */
@@ -246,6 +247,15 @@ export interface Embedded {
   report: Record<string, unknown>;
   /** where moving things were, time by time */
   movers?: { time: number; things: Thing[] }[];
+  /** what a person did meanwhile */
+  notes?: ReplayNote[];
+}
+
+export interface ReplayNote {
+  time: number;
+  /** "mode", "lesson", "edit" or "world" */
+  kind: string;
+  sentence: string;
 }
 
 export interface ReplayEvent {

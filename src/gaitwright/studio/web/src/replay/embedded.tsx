@@ -13,7 +13,7 @@ export function embedded(page: Document): Embedded | string {
     return "The recording in this page is damaged.";
   }
   const { world, columns, rows, count, rate } = (found ?? {}) as Partial<Embedded>;
-  const whole = world && Array.isArray(columns) && typeof rows === "string" && Number(count) > 0 && Number(rate) > 0;
+  const whole = typeof world === "string" && Array.isArray(columns) && typeof rows === "string" && Number(count) > 0 && Number(rate) > 0;
   return whole ? (found as Embedded) : "The recording in this page lacks a part.";
 }
 

@@ -38,12 +38,11 @@ export class Player implements Source {
   private readonly blend: Blend;
   private readonly rows: History;
 
-  constructor(readonly recording: Embedded, data: Float32Array, private readonly clock: Clock) {
+  constructor(readonly recording: Embedded, world: World, data: Float32Array, private readonly clock: Clock) {
     const layout = new Layout(recording.columns);
-    const drivers = recording.drivers;
     this.layout = signal(layout);
-    this.world = signal(recording.world);
-    this.boxes = signal(recording.world.boxes);
+    this.world = signal(world);
+    this.boxes = signal(world.boxes);
     this.blend = new Blend(layout);
     const count = Math.min(recording.count, Math.floor(data.length / layout.width));
     this.rows = new History(layout.width, layout.at("time"), Infinity, Math.max(1, count));
@@ -56,15 +55,15 @@ export class Player implements Source {
     const movers = recording.movers ?? [];
     const moment = computed(() => (movers.length ? lastBefore(movers, clock.time.value) : -1));
     this.moved = computed(() => (moment.value < 0 ? null : { say: "moved", things: movers[moment.value].things }));
-    this.status = computed(() => statusOf(this.event.value, recording, drivers));
+    this.status = computed(() => statusOf(this.event.value, recording.drivers, world.goal));
   }
 
   /** Unpacks a recording. */
   static async of(found: Embedded, clock: Clock): Promise<Player> {
-    const packed = new Blob([fromBase64(found.rows)]).stream();
-    const whole = await new Response(packed.pipeThrough(new DecompressionStream("deflate-raw"))).arrayBuffer();
+    const whole = await unpacked(found.rows).arrayBuffer();
     const data = new Float32Array(whole, 0, whole.byteLength >> 2);
-    return new Player(fromZero(found, data), data, clock);
+    const world = (await unpacked(found.world).json()) as World;
+    return new Player(fromZero(found, data), world, data, clock);
   }
 
   get duration(): number {
@@ -105,15 +104,21 @@ export class Player implements Source {
   }
 }
 
+/** What was deflated. */
+function unpacked(packed: string): Response {
+  const stream = new Blob([fromBase64(packed)]).stream();
+  return new Response(stream.pipeThrough(new DecompressionStream("deflate-raw")));
+}
+
 /** The recording with its own beginning as time 0, its rows too: of two, both begin at once. */
 function fromZero(recording: Embedded, data: Float32Array): Embedded {
-  const { columns, events, movers } = recording;
+  const { columns, events, movers, notes } = recording;
   const layout = new Layout(columns);
   const at = layout.at("time");
   const begins = data[at] || 0;
   for (let k = at; k < data.length; k += layout.width) data[k] -= begins;
   const shift = <T extends { time: number }>(one: T): T => ({ ...one, time: Math.max(0, one.time - begins) });
-  return { ...recording, events: events.map(shift), movers: movers?.map(shift) };
+  return { ...recording, events: events.map(shift), movers: movers?.map(shift), notes: notes?.map(shift) };
 }
 
 /** Place of the last of some that are in order of time, not after a time; the first where all are later. */
@@ -133,12 +138,12 @@ function helloOf(recording: Embedded): Hello {
   return { say: "hello", version: 1, columns, choices: { ...none, drivers } };
 }
 
-function statusOf(event: ReplayEvent | null, recording: Embedded, drivers: string[]): Status {
+function statusOf(event: ReplayEvent | null, drivers: string[], goal: World["goal"]): Status {
   const driver = event?.driver ?? drivers[0] ?? "";
   return {
     say: "status", time: event?.time ?? 0, paused: false, pace: 1, real_time: 1, mode: "plan", driver,
     controller: driver, skill: event?.skill ?? "", velocity: [0, 0, 0], because: event?.because ?? "",
-    rule: event?.rule ?? "", route: [], goal: recording.world.goal, no_way: null, pause: null, halt: null,
+    rule: event?.rule ?? "", route: [], goal, no_way: null, pause: null, halt: null,
     over: null, arrived: false, fell: false, faults: [], recording: false,
     obstacle: "", share: {},
   };

@@ -9,7 +9,7 @@ import { stretches } from "./stretches";
 
 export function RulesOverTime({ source }: { source: Source }) {
   if (!(source instanceof Player)) return null;
-  const { events } = source.recording;
+  const { events, notes = [] } = source.recording;
   const now = source.event.value;
   const end = source.duration;
   const names = [...new Set(events.map(({ rule }) => rule).filter(Boolean))];
@@ -56,6 +56,19 @@ export function RulesOverTime({ source }: { source: Source }) {
           ))}
         </ol>
       </Section>
+      {notes.length > 0 && (
+        <Section title="What a person did" aside={`${notes.length}`}>
+          <ol class="events">
+            {notes.map((note, k) => (
+              <li key={k} data-testid="note" onClick={() => clock.seek(note.time)}>
+                <span class="event-time">{number(note.time, 2)}</span>
+                <span class="chip">{note.kind}</span>
+                <span class="event-why">{note.sentence}</span>
+              </li>
+            ))}
+          </ol>
+        </Section>
+      )}
     </>
   );
 }

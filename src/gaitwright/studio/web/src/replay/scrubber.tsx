@@ -58,7 +58,7 @@ function Track({ players }: { players: Player[] }) {
 }
 
 function Bands({ player, duration }: { player: Player; duration: number }) {
-  const { events } = player.recording;
+  const { events, notes } = player.recording;
   const end = player.duration;
   const bands = (key: "skill" | "driver", colour: (name: string) => string) =>
     stretches(events, key, end).map(({ name, from, to }) => (
@@ -72,6 +72,9 @@ function Bands({ player, duration }: { player: Player; duration: number }) {
     <>
       <div class="band skills-band" data-testid="skill-band">
         {bands("skill", skillColour)}
+        {notes?.map(({ time, sentence }, k) => (
+          <b key={k} title={`${number(time, 1)} s: ${sentence}`} style={{ left: `${(100 * time) / duration}%` }} data-testid="note-mark" />
+        ))}
       </div>
       <div class="band driver-band" data-testid="driver-band">
         {bands("driver", driverColour)}
