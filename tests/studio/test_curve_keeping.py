@@ -20,6 +20,7 @@ from gaitwright.studio.curve_history import Snapshot
 from gaitwright.studio.curve_keeping import Keeper
 from gaitwright.studio.curve_torque import TorqueCurve, TorqueEdit
 from gaitwright.studio.curve_walk import Walk
+from gaitwright.studio.curves import Curves
 from oracles import robot_called
 
 GO2 = robot_called("go2")
@@ -53,6 +54,18 @@ def test_a_leg_cycle_is_a_file_that_is_read_back_as_it_was(tmp_path: Path) -> No
         keeper.keep(Snapshot({"trot": LOW}), {})
     keeper.keep(Snapshot(), {})
     assert load_cycle(tmp_path / "trot.json") == cycle_of("trot"), "what was undone is as it was"
+
+
+def test_a_kept_leg_cycle_counts_at_the_next_start_and_can_be_undone(tmp_path: Path) -> None:
+    Keeper(None, tmp_path).keep(Snapshot({"trot": LOW}), {})
+    (tmp_path / "walk.json").write_text("[]")
+    curves = Curves(GO2, folder=tmp_path)
+    assert dict(curves.history.now.cycles) == {"trot": LOW}
+    (fault,) = curves.faults
+    assert "walk.json" in fault
+    curves.history.undo()
+    curves.keep()
+    assert not Curves(GO2, folder=tmp_path).history.now.cycles, "undone and kept: it is as it was"
 
 
 def test_an_edited_profile_stands_beside_what_it_was(book: Path) -> None:

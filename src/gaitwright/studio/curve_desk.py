@@ -34,6 +34,8 @@ class CurveDesk:
         """From now on it is about this run; edits go along to one of the same robot."""
         if self.curves is None or self.curves.robot.name != run.robot.name:
             self.curves = Curves(run.robot, self.ledger, self.folder / FOLDER)
+            for fault in self.curves.faults:
+                self.say({"say": "remark", "sentence": fault})
         self.run = run
         run.session.brain = self.curves.fit(run.session.brain)
         self.changed()

@@ -1,13 +1,14 @@
 """Edits to where they last: leg cycles as JSON files, profiles and operators in a skillbook."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import msgspec
 
-from gaitwright.errors import WrongUse
+from gaitwright.errors import BadFile, WrongUse
 from gaitwright.files import fitting, whole
-from gaitwright.gait.leg_cycles.files import CycleEntry, cycle_of
+from gaitwright.gait.leg_cycles.files import CycleEntry, cycle_of, load_cycle
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle
 from gaitwright.learning import operator_books, profile_books
 from gaitwright.skillbook.operator_notes import OperatorNotes
@@ -26,6 +27,21 @@ class Keeper:
         """What stood in the book under the names of edited profiles before; `None`: nothing."""
         self.operators: tuple[OperatorNotes, ...] | None = None
         """Those of the book before the first was added; `None`: none was."""
+
+    def found(self, skills: Iterable[str]) -> tuple[Snapshot, list[str]]:
+        """Leg cycles of these skills that were kept before, and what is wrong with files that are none."""
+        cycles, faults = {}, []
+        paths = {} if self.folder is None else {skill: self.folder / f"{skill}.json" for skill in skills}
+        for skill, path in paths.items():
+            try:
+                cycle = load_cycle(path) if path.is_file() else cycle_of(skill)
+            except BadFile as error:
+                faults.append(f"not used: {error}")
+                continue
+            if cycle != replace(cycle_of(skill), name=cycle.name):  # else it was undone
+                cycles[skill] = cycle
+        self.kept = Snapshot(cycles)
+        return self.kept, faults
 
     def keep(self, snapshot: Snapshot, usual: Mapping[str, LegCycle]) -> list[str]:
         """Writes a snapshot; a sentence for each thing. `usual`: leg cycles by skill before all edits.

@@ -17,6 +17,7 @@ from gaitwright.locomotion import Brain
 from gaitwright.model.robot import Robot
 from gaitwright.session import Session
 from gaitwright.skillbook.writer import Ledger
+from gaitwright.skills.library import skill_names
 from gaitwright.studio.curve_angle import AngleCurve
 from gaitwright.studio.curve_brain import edited_parts, operators_of, torques_of
 from gaitwright.studio.curve_change import Change, Parts
@@ -38,7 +39,8 @@ Message = dict[str, Any]
 
 
 class Curves:
-    """The curves of one robot. `ledger`, `folder`: where edits are kept; `who` makes them."""
+    """The curves of one robot. `ledger`, `folder`: where edits are kept; `who` makes them. Leg cycles that were
+    kept before count from the start, and can be undone; `faults` says which could not be read."""
 
     def __init__(
         self, robot: Robot, ledger: Ledger | None = None, folder: Path | None = None, who: str = "a person"
@@ -47,6 +49,9 @@ class Curves:
         self.history, self.change, self.keeper = History(), Change(), Keeper(ledger, folder)
         self.origin: Parts | None = None
         self.laps: LastLaps | None = None
+        kept, self.faults = self.keeper.found(skill_names(robot.n))
+        if kept.cycles:
+            self.history.add(kept)
 
     # --- beside the session ------------------------------------------------------------------------
     def fit(self, brain: Brain) -> Brain:
