@@ -39,8 +39,8 @@ Message = dict[str, Any]
 
 
 class Curves:
-    """The curves of one robot. `ledger`, `folder`: where edits are kept; `who` makes them. Leg cycles that were
-    kept before count from the start, and can be undone; `faults` says which could not be read."""
+    """The curves of one robot. `ledger`, `folder`: where edits are kept; `who` makes them. Leg cycles that
+    were kept before count from the start, and can be undone; `faults` says which could not be read."""
 
     def __init__(
         self, robot: Robot, ledger: Ledger | None = None, folder: Path | None = None, who: str = "a person"
