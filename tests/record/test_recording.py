@@ -92,7 +92,8 @@ def test_mcap_reads_back_as_ros_2_messages(recording: Recording, tmp_path: Path)
         "foxglove.SceneUpdate",
         "std_msgs/msg/String",
     }
-    assert changes == [{"time": 0.0, "skill": "walk", "driver": "numerical", "rule": ""}]
+    walking = {"skill": "walk", "driver": "numerical", "rule": ""}
+    assert changes == [{"time": 0.0, **walking, "because": "asked for"}]
     assert scans[0]["time"] == 0.0 and scans[0]["slope"] == recording["scan_slope"][0]
     assert len(scans) == 1  # with nowhere to go, nobody looks again
 

@@ -14,7 +14,7 @@ from gaitwright.ground.scene_entries import BoxShape, ShapeEntry
 from gaitwright.model.robot import Robot, robot_of
 from gaitwright.perception.fault_words import Fault
 from gaitwright.record.channels import MEMORY, MOST_MEMORIES, SITUATION, Held, always, columns_of
-from gaitwright.record.notes import MOST_NOTES, Note
+from gaitwright.record.notes import MOST_LETTERS, MOST_NOTES, Note
 
 MOST_LEGS = 16
 MOST_BOXES = 2500
@@ -57,7 +57,7 @@ class Noted(msgspec.Struct, frozen=True):
 
     time: float
     kind: Name
-    sentence: Annotated[str, Meta(max_length=1000)]
+    sentence: Annotated[str, Meta(max_length=MOST_LETTERS)]
 
     @property
     def note(self) -> Note:

@@ -3,9 +3,9 @@
 Topics: `/joint_states` (sensor_msgs/JointState: angles, rates, torques), `/tf` (tf2_msgs/TFMessage: world →
 base → the links of every leg), `/tf_static` (their feet), `/robot_description` (std_msgs/String: a URDF with
 these links and joints), `/gaitwright/scene` (foxglove.SceneUpdate: ground, boxes, the way, what moves),
-`/gaitwright/changes` (JSON: skill, driver and rule, whenever one changes), `/gaitwright/mode`, `/lesson`,
-`/edit` and `/world` (JSON: what a person did), `/gaitwright/scan` (JSON: the ground ahead, whenever it looks
-different), and those of `mcap_previews`. Needs the extra `record`.
+`/gaitwright/changes` (JSON: skill, driver and rule, whenever one changes, and why), `/gaitwright/mode`,
+`/lesson`, `/edit` and `/world` (JSON: what a person did), `/gaitwright/scan` (JSON: the ground ahead,
+whenever it looks different), and those of `mcap_previews`. Needs the extra `record`.
 """
 
 import json
@@ -28,7 +28,7 @@ from gaitwright.plant.mujoco.world import JOINTS
 from gaitwright.record.changes import Change, changes_of
 from gaitwright.record.channels import SCAN
 from gaitwright.record.mcap_previews import write_previews
-from gaitwright.record.notes import NOTED
+from gaitwright.record.notes import DONE
 from gaitwright.record.recording import Recording
 from gaitwright.record.rows import parts
 from gaitwright.record.scene_of import rearranged, scene_of
@@ -185,7 +185,7 @@ def write_changes(writer: Writer, r: Recording) -> None:
 
 def write_notes(writer: Writer, r: Recording) -> None:
     """What a person did, a topic for each kind of thing."""
-    for kind in dict.fromkeys(note.kind for note in r.notes if note.kind in NOTED):
+    for kind in dict.fromkeys(note.kind for note in r.notes if note.kind in DONE):
         write = topic(writer, f"/gaitwright/{kind}", "gaitwright.Note", NOTES)
         for note in (one for one in r.notes if one.kind == kind):
             write({"time": note.time, "sentence": note.sentence}, note.time)

@@ -21,10 +21,11 @@ from gaitwright.record.arrangement import Arrangement
 from gaitwright.record.channels import SITUATION, STATE, Held, Packer, columns_of, shapes, widths
 from gaitwright.record.checked import NAMED, check_rows, header_of, sound_rows
 from gaitwright.record.metrics import Report
-from gaitwright.record.notes import MOST_NOTES, Note
+from gaitwright.record.notes import MOST_LETTERS, MOST_NOTES, WHY, Note
 from gaitwright.record.npz import opened, read_blocks, read_header, write_npz
 from gaitwright.record.previews import Previewer, read_previews, series_of
 from gaitwright.record.rows import BLOCK, Lazy, Table, Writer, filled, first_rows, parts
+from gaitwright.skills.vocabulary import RULE_IN_USE
 
 INTERRUPTED = "interrupted"
 """`stopped_because` of a trip that was cut off by the user."""
@@ -63,7 +64,7 @@ class Recording:
     boxes: tuple[Box, ...] | None = None
     """Those that stood there all the time, where a person had them moved; `None`: those of the scene."""
     notes: tuple[Note, ...] = ()
-    """What a person did meanwhile."""
+    """Why it did what it did, and what a person did meanwhile."""
 
     def __len__(self) -> int:
         """Number of ticks."""
@@ -209,9 +210,11 @@ class Recorder:
         self.arrangement: Arrangement | None = None
         """The boxes, where a person may move them."""
         self.notes: list[Note] = []
+        self.known: tuple[str, str, object] | None = None
+        """Skill, driver and rule whose reason was noted last."""
 
     def note(self, note: Note) -> None:
-        """Something that a person did; of very many the first ones."""
+        """Something that is told in words; of very many the first ones."""
         if len(self.notes) < MOST_NOTES:
             self.notes.append(note)
 
@@ -221,6 +224,10 @@ class Recorder:
         Raises `NoRoom` where the disk is full: the trip has to end, and nothing is lost.
         """
         self.last, self.laps = lap, self.laps + 1
+        decided = lap.call.skill, lap.call.driver, lap.call.memory.get(RULE_IN_USE)
+        if decided != self.known:
+            self.known = decided
+            self.note(Note(float(lap.sensed.time), WHY, lap.call.because[:MOST_LETTERS]))
         try:
             self.writer.add(self.packer.row(lap))
             if mind is not None:

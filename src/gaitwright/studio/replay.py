@@ -22,6 +22,7 @@ from gaitwright.files import fitting, whole
 from gaitwright.ground.scene import Scene
 from gaitwright.ground.terrain import Flat
 from gaitwright.record.changes import changes_of
+from gaitwright.record.notes import DONE
 from gaitwright.record.recording import Recording
 from gaitwright.record.scene_of import rearranged, scene_of
 from gaitwright.studio.frames import columns_of
@@ -85,7 +86,7 @@ def replay_data(recording: Recording, scene: Scene | None = None) -> dict[str, A
         "count": len(rows),
         "rows": pressed(np.ascontiguousarray(rows, "<f4").tobytes()),
         "events": list(events_of(recording)),
-        "notes": [note._asdict() for note in recording.notes],
+        "notes": [note._asdict() for note in recording.notes if note.kind in DONE],
         "report": finite(asdict(recording.report())),
         "movers": moves_of(recording, ground),
     }
@@ -124,7 +125,8 @@ def pressed(plain: bytes) -> str:
 def events_of(recording: Recording) -> Iterator[dict[str, Any]]:
     """When skill, driver or rule changed, and to what."""
     for change in changes_of(recording):
-        yield change._asdict() | {"because": f"rule {change.rule}" if change.rule else ""}
+        by_rule = f"rule {change.rule}" if change.rule else ""
+        yield change._asdict() | {"because": change.because or by_rule}
 
 
 def moves_of(recording: Recording, scene: Scene) -> list[dict[str, Any]]:
