@@ -118,7 +118,7 @@ class Brain:
             robot,
             perception,
             navigator,
-            GivesWay(guarded(chooser, robot, sees), robot),
+            whole_chooser(chooser, robot, sees),
             Coordinator(robot, dt),
             {
                 "numerical": numerical,
@@ -132,6 +132,10 @@ class Brain:
     def controller(self, driver: str) -> Controller:
         """Who computes the torques. Raises `WrongUse` for a driver that there is not."""
         return self.driving.controller(driver)
+
+    def with_chooser(self, chooser: Chooser) -> "Brain":
+        """The same brain with another chooser of skills, held to what the robot can and gives way to."""
+        return replace(self, chooser=whole_chooser(chooser, self.robot))
 
     def with_cycle(self, skill: str, cycle: LegCycle) -> "Brain":
         """The same brain with feet that follow a leg cycle in a skill, whoever computes the torques."""
@@ -220,6 +224,11 @@ class Brain:
         """The skill for what lies ahead, with the mission's driver where it names none."""
         call = self.chooser.choose(route, sensed, now, ground)
         return call if call.driver else replace(call, driver=mission.driver)
+
+
+def whole_chooser(chooser: Chooser, robot: Robot, sees: bool = True) -> Chooser:
+    """A chooser that is held to what the robot can do, and gives way to what moves."""
+    return GivesWay(guarded(chooser, robot, sees), robot)
 
 
 class Mind(NamedTuple):

@@ -24,7 +24,7 @@ from gaitwright.record.recording import Recorder, Recording
 from gaitwright.record.scene_of import scene_for, scene_scale  # noqa: F401 - found here by all who set up runs
 from gaitwright.signals import Measured, Mission
 from gaitwright.skills.commanded import check_velocity
-from gaitwright.stages import Plant, SimulatedPlant
+from gaitwright.stages import Chooser, Plant, SimulatedPlant
 from gaitwright.termination import Ending, Termination
 
 DT = 0.002
@@ -200,6 +200,11 @@ class Session:
         self.brain.controller(driver)
         mission, call = replace(self.mind.mission, driver=driver), replace(self.mind.call, driver=driver)
         self.mind = self.mind._replace(mission=mission, call=call)
+
+    def choose_by(self, chooser: Chooser) -> None:
+        """Another chooser of skills: it is asked at the next step."""
+        self.brain = self.brain.with_chooser(chooser)
+        self.mind = self.mind._replace(chosen_at=-math.inf)
 
     def push(self, push: Push) -> None:
         """A push that waits for its time."""

@@ -9,6 +9,7 @@ from gaitwright.learning.operator_books import notes_of
 from gaitwright.skillbook.book import Skillbook
 from gaitwright.skillbook.writer import open_for_learning
 from gaitwright.skills.situation import FOREST
+from gaitwright.studio import messages as m
 from gaitwright.studio.room import Room
 from gaitwright.studio.setup import Setup
 
@@ -26,6 +27,13 @@ def opened(
         room = Room(Setup(scene=scene, driver="numerical"), ledger, folder, said.append)
         yield room
         room.close()
+
+
+def kept(room: Room) -> Path:
+    """The file of what was recorded up to now."""
+    name = room.hears(m.Record(on=False))["recording"]
+    room.recording.settle()
+    return room.recording.shelf.path(name)
 
 
 def laps(room: Room, seconds: float) -> None:

@@ -53,7 +53,7 @@ def test_an_edit_is_taken_undone_done_again_and_kept(room: Room, said: list[dict
     room.hears(m.Redo())
     assert shown(room)["points"] == taken["curve"]["points"]
     assert "trot" in (room.hears(m.Save()) or {})["sentences"][0]
-    assert (tmp_path / "leg-cycles" / "trot.json").is_file()
+    assert (tmp_path / "leg-cycles" / "go2" / "trot.json").is_file()
 
 
 def test_a_path_that_no_leg_can_follow_changes_nothing(room: Room, said: list[dict]):

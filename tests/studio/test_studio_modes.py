@@ -1,6 +1,7 @@
 """Modes (row S2): a motion that a person composes by driving and plays back; an apprentice that is shown."""
 
 import math
+import time
 from pathlib import Path
 
 import pytest
@@ -151,3 +152,25 @@ def test_a_robot_that_was_let_down_is_asked_nothing_but_to_begin_anew(room: Room
     room.hears(m.Reset())
     room.hears(m.Skill(name="trot"))
     assert room.status()["over"] is None and room.status()["held"] == "trot"
+
+
+def test_what_is_played_ends_with_the_run(room: Room):
+    room.hears(m.Compose(on=True))
+    room.hears(m.Steer(forward=0.2))
+    laps(room, 1.0)
+    room.hears(m.Compose(on=False))
+    room.hears(m.Play())
+    room.hears(m.Abort())
+    assert not room.status()["playing"]
+    with pytest.raises(WrongUse, match="aborted"):
+        room.hears(m.Play())
+
+
+def test_a_motion_holds_that_its_composer_was_gone(room: Room):
+    room.hears(m.Compose(on=True))
+    room.hears(m.Steer(forward=0.2))
+    time.sleep(0.4)  # longer than the watchdog waits
+    room.driving.watch_over()
+    room.hears(m.Compose(on=False))
+    kinds = [type(word) for _, word in room.driving.score.words]
+    assert kinds == [m.Steer, m.Stand]

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mcap.reader import make_reader
-from rooms import laps, opened
+from rooms import kept, laps, opened
 
 from gaitwright.errors import BadFile, WrongUse
 from gaitwright.ground.scene import Scene
@@ -30,7 +30,7 @@ def recording(tmp_path: Path) -> Recording:
         laps(room, 1.0)
         room.hears(m.Skill(name="pace"))
         laps(room, 1.0)
-        return load(tmp_path / room.hears(m.Record(on=False))["recording"])
+        return load(kept(room))
 
 
 def rows_in(data: dict) -> np.ndarray:
@@ -90,7 +90,7 @@ def told(tmp_path: Path) -> Recording:
         laps(room, 0.5)
         room.hears(m.Skill(name="trot"))
         laps(room, 0.3)
-        return load(tmp_path / room.hears(m.Record(on=False))["recording"])
+        return load(kept(room))
 
 
 def test_a_recording_says_what_a_person_did(told: Recording):

@@ -7,11 +7,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rooms import laps, opened
+from rooms import kept, laps, opened
 
-from gaitwright.errors import GaitwrightError, WrongUse
+from gaitwright.errors import GaitwrightError, NoRoom, WrongUse
 from gaitwright.record.metrics import digest
 from gaitwright.record.recording import load
+from gaitwright.record.rows import Writer
+from gaitwright.skills.giving_way import GivesWay
+from gaitwright.skills.library import speed_scale
 from gaitwright.studio import messages as m
 from gaitwright.studio.frames import LAYOUT, columns_of, row_of
 from gaitwright.studio.room import Room
@@ -185,9 +188,110 @@ def test_a_push_is_felt(room: Room):
 def test_a_recording_holds_what_happened_between_on_and_off(room: Room):
     room.hears(m.Record(on=True))
     laps(room, 0.4)
-    name = room.hears(m.Record(on=False))["recording"]
-    assert len(load(room.recording.shelf.path(name))) == 200
-    assert name in [one["name"] for one in room.hears(m.Recordings())["recordings"]]
+    path = kept(room)
+    assert len(load(path)) == 200
+    assert path.name in [one["name"] for one in room.hears(m.Recordings())["recordings"]]
+
+
+def test_a_recording_that_cannot_be_written_is_not_lost(room: Room, said: list[dict], tmp_path: Path):
+    folder, good = tmp_path / "no-folder", room.recording.shelf.folder
+    folder.write_text("in the way")
+    room.recording.shelf.folder = folder
+    room.hears(m.Record(on=True))
+    laps(room, 0.2)
+    room.hears(m.Record(on=False))
+    room.recording.settle()
+    room.status()
+    assert any("could not be written" in str(one.get("sentence")) for one in said)
+    room.recording.shelf.folder = good
+    room.hears(m.Record(on=True))
+    laps(room, 0.1)
+    kept(room)
+    lengths = sorted(len(load(path)) for path in good.glob("*.npz"))
+    assert lengths == [50, 100], "the next one takes the other along"
+
+
+def test_a_disk_that_is_full_ends_the_recording_and_not_the_run(
+    room: Room, said: list[dict], monkeypatch: pytest.MonkeyPatch
+):
+    room.hears(m.Record(on=True))
+    laps(room, 0.1)
+
+    def full(*_: object) -> None:
+        raise NoRoom("no space left")
+
+    monkeypatch.setattr(Writer, "add", full)
+    laps(room, 0.1)
+    assert room.status()["recording"] is False and room.status()["over"] is None
+    assert any("no space left" in str(one.get("sentence")) for one in said)
+
+
+def test_a_reset_that_cannot_be_had_changes_nothing(room: Room):
+    room.hears(m.Record(on=True))
+    laps(room, 0.1)
+    before = room.run
+    with pytest.raises(WrongUse, match="no driver learned"):
+        room.hears(m.Reset(driver="learned"))
+    assert room.run is before and room.status()["recording"] and room.lap()
+
+
+def test_a_reset_shows_the_robot_also_while_time_stands(room: Room):
+    laps(room, 0.2)
+    room.hears(m.Pause())
+    room.hears(m.Reset(scene="flat"))
+    assert room.frame(0) is not None and room.run.time < 0.01 and room.paused
+
+
+def test_a_goal_after_others_comes_after_those_that_are_left(room: Room):
+    room.hears(m.Reset(scene="flat"))
+    room.hears(m.Go(x=0.4, y=0.0))
+    room.hears(m.Go(x=1.2, y=0.0, then=True))
+    while room.run.sensed.position_w[0] < 0.7:
+        laps(room, 0.1)
+    room.hears(m.Go(x=1.2, y=0.8, then=True))
+    assert room.run.session.mind.mission.waypoints == ((1.2, 0.0), (1.2, 0.8))
+
+
+def test_a_robot_gives_way_whoever_chose_its_skill(room: Room):
+    room.hears(m.Skill(name="walk"))
+    assert isinstance(room.run.session.brain.chooser, GivesWay)
+    room.hears(m.Skill(name=""))
+    assert isinstance(room.run.session.brain.chooser, GivesWay)
+
+
+def test_a_run_that_ends_on_its_feet_is_let_down(room: Room):
+    room.hears(m.Reset(scene="flat"))
+    session = room.run.session
+    session.termination.ends = room.run.time + 0.2
+    laps(room, 10.0)
+    assert "over" in room.status()["over"] and session.closed
+    assert room.run.sensed.position_w[2] < 0.6 * room.run.robot.height
+
+
+def test_what_is_kept_is_the_lesson_that_was_seen(room: Room):
+    laps(room, 0.1)
+    first = room.hears(m.Right(skill="pace"))["lesson"]
+    laps(room, 0.1)
+    second = room.hears(m.Right(skill="walk"))["lesson"]
+    with pytest.raises(WrongUse, match="by now"):
+        room.hears(m.Keep(lesson=first))
+    assert room.hears(m.Keep(lesson=second))["lesson"] == second
+
+
+def test_the_same_moment_of_another_run_is_another_lesson(room: Room):
+    first = room.hears(m.Right(skill="pace"))["lesson"]
+    room.hears(m.Keep())
+    room.hears(m.Reset(seed=0))
+    second = room.hears(m.Ok())["lesson"]
+    assert first.startswith("blocks (seed 0) at 0.00") and second.startswith("blocks (seed 0), run 2 at 0.00")
+
+
+def test_a_speed_that_is_shown_is_the_one_that_is_learned(room: Room):
+    room.hears(m.Reset(robot="thesis", scene="flat"))
+    scale = speed_scale(room.run.robot)
+    assert abs(scale - 1.0) > 0.05
+    sentence = room.hears(m.Right(skill="trot", speed=0.3 * scale))["sentence"]
+    assert "0.3" in sentence
 
 
 def test_a_lesson_is_tried_first_and_in_the_book_once_it_is_kept(room: Room, said: list[dict]):

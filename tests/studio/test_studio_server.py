@@ -1,14 +1,12 @@
 """The studio's server as those who reach it meet it: who is let in, what is refused, who drives."""
 
 import http.client
-import json
 import os
 import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
-from typing import Any
 
 import pytest
 from page_fixtures import Line, Studio, close
@@ -16,7 +14,6 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from gaitwright.record.recording import load
 from gaitwright.studio.frames import HEADER, columns_of
-from gaitwright.studio.hub import Hub
 
 pytestmark = pytest.mark.xdist_group("studio")
 
@@ -135,29 +132,6 @@ def test_who_comes_later_is_told_what_the_others_know(studio: Studio, line: Line
     assert set(late.last) >= {"hello", "world", "rules", "status", "role"}
     assert late.last["world"]["scene"] == "blocks"
     close(late.socket)
-
-
-def test_who_comes_later_is_told_of_the_ground_that_was_seen_before():
-    hub = Hub(lambda who, asked: None, lambda said: None)
-
-    def told(**said: Any) -> None:
-        hub.told(0, json.dumps(said).encode())
-
-    def learned() -> list[float]:
-        said = [json.loads(text) for text in hub.enter().take() if isinstance(text, str)]
-        kinds = [one["say"] for one in said]
-        assert kinds.count("world") == 1 and kinds.index("world") < kinds.index("seen")
-        return [one["x"] for one in said if one["say"] == "seen"]
-
-    told(say="hello")
-    told(say="world")
-    for x in (0.0, 0.5, 4.0, 9.0, 0.7):
-        told(say="seen", x=x, y=0.0)
-    assert learned() == [4.0, 9.0, 0.7], "one for each place, and the last one last"
-    told(say="hello")
-    told(say="world")
-    told(say="seen", x=1.0, y=1.0)
-    assert learned() == [1.0], "another run has learned nothing yet"
 
 
 def test_a_robot_whose_driver_is_gone_stands(studio: Studio, line: Line):

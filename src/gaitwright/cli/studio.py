@@ -31,14 +31,15 @@ def run(args: Namespace) -> int:
 
         with working("looking for the page", worth_a_line=None):
             page = ready_page(remark)
-        serve(robot, Serving(folder, page, args.host, args.port), lambda address: tell(address, args))
+        what = Serving(folder, page, args.host, args.port)
+        serve(robot, what, lambda address, once: tell(address, once, args))
     return 0
 
 
-def tell(address: str, args: Namespace) -> None:
-    """Says where the studio is, and opens it where that was not forbidden."""
+def tell(address: str, once: str, args: Namespace) -> None:
+    """Says where the studio is, and opens it where that was not forbidden, by an address good `once`."""
     if args.json != "-":
         print(f"The studio is open at {address}\nCtrl-C closes it.", flush=True)
     write_json(args.json, json.dumps({"address": address}))
     if not args.no_browser:
-        webbrowser.open(address)
+        webbrowser.open(once)

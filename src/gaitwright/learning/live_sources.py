@@ -1,7 +1,5 @@
 """What a person teaches at: a mission that runs, or one that was recorded; both are gone through in time."""
 
-from dataclasses import replace
-
 import numpy as np
 
 from gaitwright.errors import WrongUse
@@ -13,7 +11,6 @@ from gaitwright.record.moment import call_at, route_at, sensed_at
 from gaitwright.record.recording import Recording
 from gaitwright.session import Session
 from gaitwright.signals import Route, Sensed, SkillCall
-from gaitwright.skills.commanded import guarded
 from gaitwright.skills.measured import measured
 from gaitwright.skills.rule_chooser import RuleChooser
 
@@ -56,10 +53,7 @@ class Running:
         return seen_at(self.name, self.time, brain.robot, mind.route, first, mind.call)
 
     def drive_by(self, rulebook: Rulebook) -> None:
-        brain = self.session.brain
-        chooser = guarded(RuleChooser(brain.robot, rulebook), brain.robot)
-        self.session.brain = replace(brain, chooser=chooser)
-        self.session.mind = self.session.mind._replace(chosen_at=-np.inf)  # chosen anew at once
+        self.session.choose_by(RuleChooser(self.session.brain.robot, rulebook))
 
 
 class Played:

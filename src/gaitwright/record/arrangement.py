@@ -14,8 +14,9 @@ PASSING = 0.2
 class Arrangement:
     """The boxes of a scene over a recording's time [s]."""
 
-    def __init__(self, boxes: Iterable[Box], time: float) -> None:
-        self.begun = time
+    def __init__(self, boxes: Iterable[Box], time: float, most: int = MOST_MOVERS) -> None:
+        """`most`: so many may come and go."""
+        self.begun, self.most = time, most
         self.standing: list[tuple[Box, float]] = [(box, time) for box in boxes]
         """Those that are there, and since when."""
         self.gone: list[Mover] = []
@@ -43,6 +44,6 @@ class Arrangement:
     def movers(self) -> tuple[Mover, ...]:
         """Those that came or went; what went first is left out where there are too many."""
         came = [Mover(box, appears=since) for box, since in self.standing if since > self.begun]
-        came = came[-MOST_MOVERS:]
-        left = MOST_MOVERS - len(came)
-        return (*self.gone[len(self.gone) - min(left, len(self.gone)) :], *came)
+        came = came[max(0, len(came) - self.most) :]
+        left = min(self.most - len(came), len(self.gone))
+        return (*self.gone[len(self.gone) - left :], *came)

@@ -49,6 +49,11 @@ class Score:
         """No more of it is played."""
         self.left, self.until = [], None
 
+    def check(self, message: Message) -> None:
+        """Raises `WrongUse` for a word that there is no more room for."""
+        if self.begun is not None and isinstance(message, MOVES) and len(self.words) >= MOST:
+            raise WrongUse(f"a motion has at most {MOST} words: end it, and begin another")
+
     def hear(self, now: float, message: Message) -> None:
         """Notes what moves the robot, where somebody composes; a person who moves it ends what is played."""
         if not isinstance(message, MOVES):
@@ -56,8 +61,6 @@ class Score:
         self.stop()
         if self.begun is None or (self.words and same(self.words[-1][1], message)):
             return
-        if len(self.words) >= MOST:
-            raise WrongUse(f"a motion has at most {MOST} words: end it, and begin another")
         self.words.append((now - self.begun, message))
 
     def end(self, now: float) -> int:

@@ -78,6 +78,10 @@ class Change:
         """These parts from the next cycle on."""
         self.wanted = parts
 
+    def drop(self) -> None:
+        """Nothing is waited for any more: the run is over, and the next one begins with all edits."""
+        self.wanted = self.under_way = None
+
     def after(self, session: Session) -> None:
         """Goes on with the change; to be called after every step, and before the first one."""
         if self.is_pending:

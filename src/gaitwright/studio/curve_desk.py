@@ -10,9 +10,10 @@ from gaitwright.skillbook.writer import Ledger
 from gaitwright.studio import messages as m
 from gaitwright.studio.curves import Curves
 from gaitwright.studio.live_run import LiveRun
+from gaitwright.studio.recordings import plain_name
 
 FOLDER = "leg-cycles"
-"""Edited leg cycles are kept in this folder beside the recordings."""
+"""Edited leg cycles are kept in this folder beside the recordings, those of each robot in their own."""
 
 
 class CurveDesk:
@@ -33,9 +34,7 @@ class CurveDesk:
     def attend(self, run: LiveRun) -> None:
         """From now on it is about this run; edits go along to one of the same robot."""
         if self.curves is None or self.curves.robot.name != run.robot.name:
-            self.curves = Curves(run.robot, self.ledger, self.folder / FOLDER)
-            for fault in self.curves.faults:
-                self.say({"say": "remark", "sentence": fault})
+            self.curves = Curves(run.robot, self.ledger, self.folder / FOLDER / plain_name(run.robot.name))
         self.run = run
         run.session.brain = self.curves.fit(run.session.brain)
         self.changed()
@@ -43,7 +42,7 @@ class CurveDesk:
     def after(self) -> None:
         """To be called after every lap: an edit takes effect when a cycle begins."""
         curves, session = self.at_work()
-        if self.run.lowering is None:
+        if self.run.over is None:
             curves.after(session)
         self.tell()
 
@@ -106,6 +105,8 @@ class CurveDesk:
     def tell(self) -> None:
         """Says how things are, where that is not what was said last."""
         curves, _ = self.at_work()
+        if self.run.over is not None:
+            curves.change.drop()
         now = self.edits, curves.change.is_pending
         if now != self.told:
             was_pending = self.told is not None and self.told[1]
@@ -113,4 +114,5 @@ class CurveDesk:
             edits, pending = now
             if was_pending and not pending:
                 self.run.note("edit", "the legs follow what was edited")
-            self.say({"say": "curve", "edits": edits, "pending": pending, "operators": curves.operators})
+            more = {"operators": curves.operators, "faults": curves.faults}
+            self.say({"say": "curve", "edits": edits, "pending": pending, **more})

@@ -1,6 +1,6 @@
 """Edits to where they last: leg cycles as JSON files, profiles and operators in a skillbook."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,10 +11,14 @@ from gaitwright.files import fitting, whole
 from gaitwright.gait.leg_cycles.files import CycleEntry, cycle_of, load_cycle
 from gaitwright.gait.leg_cycles.leg_cycle import LegCycle
 from gaitwright.learning import operator_books, profile_books
+from gaitwright.model.robot import Robot
 from gaitwright.skillbook.operator_notes import OperatorNotes
 from gaitwright.skillbook.profile_notes import ProfileNotes, name_of
 from gaitwright.skillbook.writer import Ledger
+from gaitwright.skills.library import skill_names
+from gaitwright.studio.curve_checks import cannot_walk
 from gaitwright.studio.curve_history import Snapshot
+from gaitwright.studio.curve_walk import Walk
 
 
 class Keeper:
@@ -28,17 +32,24 @@ class Keeper:
         self.operators: tuple[OperatorNotes, ...] | None = None
         """Those of the book before the first was added; `None`: none was."""
 
-    def found(self, skills: Iterable[str]) -> tuple[Snapshot, list[str]]:
-        """Leg cycles of these skills that were kept before, and what is wrong with files that are none."""
+    def found(self, robot: Robot) -> tuple[Snapshot, list[str]]:
+        """Leg cycles that were kept before, and what is wrong with those that a robot cannot walk."""
         cycles, faults = {}, []
-        paths = {} if self.folder is None else {skill: self.folder / f"{skill}.json" for skill in skills}
-        for skill, path in paths.items():
+        if self.folder is None:
+            return self.kept, faults
+        for skill in skill_names(robot.n):
+            path, usual = self.folder / f"{skill}.json", cycle_of(skill)
             try:
-                cycle = load_cycle(path) if path.is_file() else cycle_of(skill)
+                cycle = load_cycle(path) if path.is_file() else usual
             except BadFile as error:
                 faults.append(f"not used: {error}")
                 continue
-            if cycle != replace(cycle_of(skill), name=cycle.name):  # else it was undone
+            if cycle == replace(usual, name=cycle.name):  # it was undone
+                continue
+            wrong = cannot_walk(Walk.of(robot, skill), cycle, usual)
+            if wrong:
+                faults.append(f"not used: leg cycle of {skill} in {path}: {wrong.because}")
+            else:
                 cycles[skill] = cycle
         self.kept = Snapshot(cycles)
         return self.kept, faults

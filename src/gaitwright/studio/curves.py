@@ -17,7 +17,6 @@ from gaitwright.locomotion import Brain
 from gaitwright.model.robot import Robot
 from gaitwright.session import Session
 from gaitwright.skillbook.writer import Ledger
-from gaitwright.skills.library import skill_names
 from gaitwright.studio.curve_angle import AngleCurve
 from gaitwright.studio.curve_brain import edited_parts, operators_of, torques_of
 from gaitwright.studio.curve_change import Change, Parts
@@ -49,7 +48,7 @@ class Curves:
         self.history, self.change, self.keeper = History(), Change(), Keeper(ledger, folder)
         self.origin: Parts | None = None
         self.laps: LastLaps | None = None
-        kept, self.faults = self.keeper.found(skill_names(robot.n))
+        kept, self.faults = self.keeper.found(robot)
         if kept.cycles:
             self.history.add(kept)
 

@@ -56,10 +56,13 @@ class DrivingDesk:
         is_heard = self.steered_at is None or monotonic() - self.steered_at <= WATCHDOG
         if not is_heard and not self.score.is_playing and self.run.over is None:
             self.stand(m.Stand())
+            self.score.hear(self.run.time, m.Stand())
 
     def after(self) -> None:
         """To be called after every lap: does what a composed motion asks for now; what cannot be done ends
         it. At its end the robot stands, unless it is on its way to a goal."""
+        if self.run.over is not None:
+            self.score.stop()
         if not self.score.is_playing:
             return
         for message in self.score.due(self.run.time):
@@ -97,13 +100,20 @@ class DrivingDesk:
             self.run.let_choose()
             self.run.note("mode", "rules choose")
             return
-        # Of an apprentice: what she does here may be right here. She says whether.
-        word = m.Right(skill=said.name, speed=said.speed)
-        shown = self.teaching.right(word) if self.mode == "apprentice" else None
+        shown = self.shown(said) if self.mode == "apprentice" else None
         self.run.hold(said.name, said.speed)
         self.run.note("mode", f"skill {said.name} is held")
         if shown is not None:
             self.teaching.propose(shown)
+
+    def shown(self, said: m.Skill) -> dict[str, Any] | None:
+        """What it would do to learn what she does here, which may be right here: she says whether. Where it
+        cannot be a lesson it is done all the same."""
+        try:
+            return self.teaching.right(m.Right(skill=said.name, speed=said.speed))
+        except WrongUse as error:
+            self.say({"say": "remark", "sentence": f"this is no lesson: {error}"})
+            return None
 
     def drive(self, said: m.Drive) -> None:
         self.run.drive(said.driver)
@@ -131,6 +141,7 @@ class DrivingDesk:
         return {"words": self.score.end(self.run.time)}
 
     def play(self, said: m.Play) -> dict[str, Any]:
+        self.run.check_going()
         seconds = self.score.play(self.run.time)
         self.run.note("mode", f"the motion is played, {seconds:.1f} s")
         return {"seconds": seconds}

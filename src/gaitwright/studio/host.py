@@ -7,6 +7,8 @@ in one does not take the other along. What goes through the pipe is bytes: a num
 
 import signal
 import time
+import traceback
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -19,12 +21,12 @@ from gaitwright.skillbook.writer import open_for_learning
 from gaitwright.skills.situation import FOREST
 from gaitwright.studio.messages import id_of, message_of
 from gaitwright.studio.room import Room
-from gaitwright.studio.setup import EVERYBODY, FROM, Ends, Setup
+from gaitwright.studio.setup import EVERYBODY, FROM, Ends, Gone, Setup
 
 FRAMES, STATUSES, SCANS, MAPS = 60.0, 10.0, 10.0, 2.0
 """So many a second."""
 BUSY = 0.012
-"""Longest stretch of laps without a look at what is asked [s]."""
+"""Longest stretch of laps without a look at what is asked, and of what is asked without a lap [s]."""
 BEHIND = 0.1
 """What is owed beyond this is dropped: a slow machine walks slower, and does not try to catch up [s]."""
 
@@ -42,10 +44,24 @@ def host(pipe: Ends, setup: Setup, book: Path, folder: Path, begins: bool) -> No
                 Clock(room, pipe).run()
             finally:
                 room.close()
-    except GaitwrightError as error:
-        tell(pipe, EVERYBODY, {"say": "closed", "because": str(error), "code": error.exit_code})
-    except (EOFError, OSError):  # the server is gone
+    except Gone:  # nobody is left to tell
         pass
+    except GaitwrightError as error:
+        ended(pipe, str(error), error.exit_code)
+    except Exception as error:
+        traceback.print_exc()
+        ended(pipe, fault_of(error), GaitwrightError.exit_code)
+
+
+def ended(pipe: Ends, because: str, code: int) -> None:
+    """Says why there is no robot any more."""
+    with suppress(Gone):
+        tell(pipe, EVERYBODY, {"say": "closed", "because": because, "code": code})
+
+
+def fault_of(error: Exception) -> str:
+    """A fault of ours, in a sentence; what led to it is on the terminal."""
+    return f"this should not have happened: {type(error).__name__}: {error}; the terminal says where"
 
 
 class Clock:
@@ -61,7 +77,7 @@ class Clock:
         self.due = dict.fromkeys((self.say_frame, self.say_status, self.say_scan, self.say_seen), 0.0)
 
     def run(self) -> None:
-        """Until the other end is gone (`EOFError`)."""
+        """Until the other end is gone (`Gone`)."""
         self.room.welcome()
         before = time.monotonic()
         while True:
@@ -74,8 +90,9 @@ class Clock:
                 self.pipe.poll(0.004)  # until somebody says something
 
     def listen(self) -> None:
-        """Does what was asked since."""
-        while self.pipe.poll():
+        """Does what was asked since; of very much the rest waits, so that time goes on."""
+        until = time.monotonic() + BUSY
+        while self.pipe.poll() and time.monotonic() < until:
             said = self.pipe.recv_bytes()
             (who,) = FROM.unpack_from(said)
             self.answer(who, said[FROM.size :])
@@ -88,6 +105,12 @@ class Clock:
             answer = self.room.hears(message_of(text))
         except GaitwrightError as error:
             tell(self.pipe, who, {"say": "refused", **asked, "because": str(error)})
+            return
+        except Gone:
+            raise
+        except Exception as error:
+            traceback.print_exc()
+            tell(self.pipe, who, {"say": "refused", **asked, "because": fault_of(error)})
             return
         tell(self.pipe, who, {"say": "done", **asked, **(answer or {})})
         self.due[self.say_status] = self.due[self.say_frame] = 0.0  # who asked sees it at once

@@ -2,7 +2,8 @@
 
 Latest wins: of frames, and of each kind of thing that is said to everybody, one who reads slowly gets the
 newest and never a queue of old ones. Answers to what one asked are kept, up to `MOST_ANSWERS`. Of the ground
-the robot knows what is around it and pages gather that, so one who comes later is told what was seen before.
+the robot knows what is around it and pages gather that, so one who comes later is told what was seen before,
+piece by piece, and after all else.
 """
 
 import asyncio
@@ -10,6 +11,7 @@ import itertools
 import json
 import math
 from collections.abc import Callable
+from time import monotonic
 from typing import Any
 
 from gaitwright.errors import WrongUse
@@ -18,8 +20,12 @@ from gaitwright.studio.messages import Anyone, Release, Reset, Take, id_of, mess
 MOST_ANSWERS, MOST_WATCHERS = 256, 64
 KINDS = ("hello", "world", "boxes", "rules", "status", "scan", "seen", "moved", "curve", "tried", "closed")
 """Of what is said to everybody, one who comes later is told the last of each of these, in this order."""
-APART, MOST_PAST = 3.0, 400
-"""What was seen of the ground is kept for every so many metres of the way, of so many places."""
+APART, MOST_PAST = 4.0, 60
+"""What was seen of the ground is kept for every so many metres of the way, of so many places (13 MB)."""
+RATE, BURST = 60.0, 120.0
+"""So much may a page ask in a second, and at once: thrice what a held key does."""
+HANGS = 30.0
+"""A robot's process that has said nothing for so long may be given up [s]."""
 
 
 class Member:
@@ -33,16 +39,29 @@ class Member:
         self.answers: list[str] = []
         self.past: list[str] = []
         """What was seen of the ground before."""
+        self.may_ask, self.asked_at = BURST, monotonic()
+
+    def asks(self) -> None:
+        """Counts what it asks. Raises `WrongUse` where that is too much."""
+        now = monotonic()
+        self.may_ask = min(BURST, self.may_ask + RATE * (now - self.asked_at))
+        self.asked_at = now
+        if self.may_ask < 1.0:
+            raise WrongUse(f"a page may ask {RATE:g} things a second")
+        self.may_ask -= 1.0
 
     def take(self) -> list[str | bytes]:
-        """All of it, and nothing is left."""
-        texts: list[str | bytes] = [*self.answers]
-        for kind, text in self.said.items():
-            texts += [*self.past, text] if kind == "seen" else [text]
+        """What there is; of what was seen before one piece at a time, what is seen now after that."""
+        seen = self.said.pop("seen", None)
+        texts: list[str | bytes] = [*self.answers, *self.said.values()]
         frames = [] if self.frame is None else [self.frame]
-        self.answers, self.said, self.past, self.frame = [], {}, [], None
+        self.answers, self.said, self.frame = [], {}, None
         self.news.clear()
-        return texts + frames
+        if self.past and seen is not None:
+            self.said["seen"] = seen
+            self.news.set()
+            return [*texts, *frames, self.past.pop(0)]
+        return [*texts, *frames, *([] if seen is None else [seen])]
 
 
 class Hub:
@@ -57,6 +76,9 @@ class Hub:
         self.last_frame: bytes | None = None
         self.past: dict[tuple[int, int], str] = {}
         """What was seen of the ground, by where that was."""
+        self.setup: dict[str, Any] = {}
+        """What the last run is of, or was."""
+        self.heard_at = monotonic()
         self.numbers = itertools.count(1)
         self.closed = False
         """Whether the host is gone."""
@@ -95,6 +117,7 @@ class Hub:
     def hears(self, member: Member, text: str | bytes) -> None:
         """What a page asks goes to the host, unless it may not."""
         try:
+            member.asks()
             message = message_of(text)
             if isinstance(message, Take | Release):
                 self.hand_over(member, isinstance(message, Take))
@@ -104,17 +127,24 @@ class Hub:
                 raise WrongUse("somebody else drives: `take` the wheel first")
             if self.closed and not isinstance(message, Reset):
                 raise WrongUse("the run has ended: a reset begins another")
+            if isinstance(message, Reset) and (self.closed or self.hangs):
+                self.begin_again(member, message)
+            else:
+                self.ask(member.number, text.encode() if isinstance(text, str) else text)
         except WrongUse as error:
             refused = {"say": "refused", "id": id_of(text), "because": str(error)}
             self.answer(member.number, json.dumps(refused))
-            return
-        if self.closed and isinstance(message, Reset):
-            self.closed = False
-            self.last = {}
-            self.restart(message)
-            self.answer(member.number, json.dumps({"say": "done", "id": message.id}))
-        else:
-            self.ask(member.number, text.encode() if isinstance(text, str) else text)
+
+    @property
+    def hangs(self) -> bool:
+        """Whether a run that had begun has said nothing for long."""
+        return "status" in self.last and monotonic() - self.heard_at > HANGS
+
+    def begin_again(self, member: Member, message: Reset) -> None:
+        """Another run in the place of one that has ended. Raises `WrongUse` where it may not be had."""
+        self.restart(message)
+        self.closed, self.last, self.heard_at = False, {}, monotonic()
+        self.answer(member.number, json.dumps({"say": "done", "id": message.id}))
 
     def hand_over(self, member: Member, takes: bool) -> None:
         """One takes the wheel, or lets it go."""
@@ -127,6 +157,7 @@ class Hub:
     # --- what is said -------------------------------------------------------------------------------
     def told(self, who: int, what: bytes) -> None:
         """What the host says, to one or to all."""
+        self.heard_at = monotonic()
         if not what.startswith(b"{"):
             self.last_frame = what
             for member in self.members.values():
@@ -150,9 +181,11 @@ class Hub:
             member.news.set()
 
     def remember(self, kind: str, said: dict[str, Any], text: str) -> None:
-        """Keeps what was seen of the ground, until another run begins."""
+        """Keeps what was seen of the ground, until another run begins, and what the run is of."""
         if kind == "hello":
             self.past = {}
+        elif kind == "status":
+            self.setup = said["setup"] | {"driver": said["driver"]}
         elif kind == "seen":
             place = math.floor(said["x"] / APART), math.floor(said["y"] / APART)
             self.past.pop(place, None)

@@ -1,11 +1,13 @@
 """A session under a person's hands: set up by names, its world rearranged, what became of it kept."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import replace
 
 from gaitwright.description.load import load_robot
-from gaitwright.errors import WrongUse, unknown
+from gaitwright.errors import NoRoom, WrongUse, unknown
+from gaitwright.ground.moving_entries import MOST_MOVERS
 from gaitwright.ground.scene import Scene
 from gaitwright.ground.terrain import Box
 from gaitwright.learning.equipped import equipped
@@ -17,6 +19,7 @@ from gaitwright.model.camera import Camera
 from gaitwright.model.robot import Robot
 from gaitwright.navigation.known_field import is_blocked
 from gaitwright.navigation.room_needed import half_width
+from gaitwright.navigation.travel import Travel
 from gaitwright.perception.known_ground import map_of
 from gaitwright.plant.registry import make_plant
 from gaitwright.plant.seeing import SeeingPlant
@@ -26,17 +29,16 @@ from gaitwright.record.recording import Recorder
 from gaitwright.record.scene_of import scene_for
 from gaitwright.session import DT, Push, Session
 from gaitwright.signals import Mission, Sensed
+from gaitwright.skillbook.history import names_told
 from gaitwright.skillbook.writer import Ledger
 from gaitwright.skills.chooser import fixed_skill
-from gaitwright.skills.commanded import guarded
 from gaitwright.skills.library import check_turn, find_skill
 from gaitwright.skills.rule_chooser import RuleChooser
-from gaitwright.stages import Chooser
 from gaitwright.studio.setup import DRIVERS, Setup
 
 FOR_EVER = 1e9
 """A run in the studio has no end of its own [s]."""
-MOST_BOXES = 2500
+MOST_BOXES, MOST_RUNS = 2500, 10_000
 ABORTED = "aborted: the robot is let down"
 
 
@@ -47,6 +49,8 @@ class LiveRun:
         """Sets it up; the robot stands and waits. Raises `WrongUse` or `BadFile` for what cannot be had."""
         check_known("driver", setup.driver, DRIVERS)
         self.setup, self.ledger = setup, ledger
+        self.ended: str | None = None
+        """Why the run is over; `None` while it goes on."""
         self.robot: Robot = load_robot(setup.robot)
         self.scene: Scene = scene_for(self.robot, setup.scene, setup.seed)
         self.boxes = dict(enumerate(self.scene.boxes))
@@ -57,16 +61,13 @@ class LiveRun:
         self.held: str = ""
         """The skill that a person holds; empty: rules choose."""
         self.recorder: Recorder | None = None
+        self.name = run_name(f"{self.scene.name} (seed {setup.seed})", names_told(ledger.book.steps))
+        """What lessons say of where they were given."""
         self.lesson = Running(self.session, self.name)
         self.lap: Lap | None = None
         """The last one."""
         self.lowering: Iterator[Lap] | None = None
         """What is left of letting the robot down."""
-
-    @property
-    def name(self) -> str:
-        """What lessons say of where they were given."""
-        return f"{self.scene.name} (seed {self.setup.seed})"
 
     @property
     def has_profiles(self) -> bool:
@@ -101,20 +102,34 @@ class LiveRun:
         return session
 
     def step(self) -> Lap | None:
-        """One lap; `None` where the run is over."""
+        """One lap; `None` where the run is over and the robot was let down."""
         lap = self.session.step() if self.lowering is None else next(self.lowering, None)
         if self.held and self.session.outcome is not None:
             self.let_choose()
         if lap is not None:
             self.lap = lap
-            if self.recorder is not None:
-                self.recorder.add(lap, self.session.mind if self.lowering is None else None)
+            self.keep(lap)
+            if self.ended is None and lap.stopped_because is not None:
+                self.end(lap.stopped_because)
         return lap
+
+    def keep(self, lap: Lap) -> None:
+        """A lap joins what is recorded; where there is no room for it, `recorder.no_room` says so."""
+        if self.recorder is not None:
+            with suppress(NoRoom):
+                self.recorder.add(lap, self.session.mind if self.lowering is None else None)
+
+    def end(self, because: str) -> None:
+        """The run is over; a robot that is on its feet is let down."""
+        self.ended, self.lowering = because, self.session.lower()
+        if self.recorder is not None:
+            self.recorder.end_trip()
 
     def record(self) -> None:
         """Laps from the next one on, and what a person does meanwhile, are kept in a `recorder`."""
         self.recorder = Recorder(self.robot, self.scene.name, self.setup.seed, DT, self.scene.movers)
-        self.recorder.arrangement = Arrangement(self.scene.boxes, self.time)
+        most = MOST_MOVERS - len(self.scene.movers)
+        self.recorder.arrangement = Arrangement(self.scene.boxes, self.time, most)
 
     def note(self, kind: str, sentence: str) -> None:
         """Something that a person did, for who looks at a recording (`record.notes`)."""
@@ -124,16 +139,15 @@ class LiveRun:
     @property
     def over(self) -> str | None:
         """Why the run is over; `None` while it goes on."""
-        if self.lowering is not None:
-            return ABORTED
-        return self.lap.stopped_because if self.lap else None
+        return self.ended
 
     # --- where to go --------------------------------------------------------------------------------
     def go(self, x: float, y: float, then: bool) -> None:
         """To a place of the field [m]; with `then` after the places that are left."""
         self.check_going()
         self.check_on("the goal", x, y)
-        before = self.session.mind.mission.waypoints if then else ()
+        travel = self.session.mind.memories.navigator
+        before = travel.left if then and isinstance(travel, Travel) else ()
         if self.held:
             self.let_choose()
         self.session.give(Mission((*before, (x, y)), driver=self.driver))
@@ -152,7 +166,7 @@ class LiveRun:
     def abort(self) -> None:
         """The robot comes to a stand and is let down; its motors go off."""
         if self.over is None:
-            self.lowering = self.session.lower()
+            self.end(ABORTED)
 
     @property
     def driver(self) -> str:
@@ -172,19 +186,13 @@ class LiveRun:
         chooser = fixed_skill(self.robot, skill, speed, 0.0, None, "")
         check_turn(find_skill(skill, self.robot), self.robot, chooser.skill_call.turn)
         self.session.give(Mission((), driver=self.driver))
-        self.choose_by(guarded(chooser, self.robot))
+        self.session.choose_by(chooser)
         self.held = skill
 
     def let_choose(self) -> None:
         """Rules choose the skills again."""
         self.held = ""
         self.lesson.drive_by(self.ledger.book.rulebook)
-
-    def choose_by(self, chooser: Chooser) -> None:
-        """Another chooser from the next lap on."""
-        session = self.session
-        session.brain = replace(session.brain, chooser=chooser)
-        session.mind = session.mind._replace(chosen_at=-math.inf)
 
     def push(self, impulse: float, direction: float) -> None:
         """A push now; `direction` in the world [rad]."""
@@ -257,6 +265,13 @@ class LiveRun:
                 f"{what} ({x:.2f}, {y:.2f}) lies outside the field, which goes from ({x_min:g}, {y_min:g}) "
                 f"to ({x_max:g}, {y_max:g})"
             )
+
+
+def run_name(name: str, told: Iterable[str]) -> str:
+    """A name for a run after which no lesson of the book is called, so that lessons of it get their own."""
+    names = (name, *(f"{name}, run {k}" for k in range(2, MOST_RUNS)))
+    known = tuple(told)
+    return next((one for one in names if not any(id.startswith(f"{one} at ") for id in known)), name)
 
 
 def check_known(what: str, asked: str, known: tuple[str, ...]) -> None:

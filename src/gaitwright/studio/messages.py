@@ -179,11 +179,10 @@ class Recordings(Anyone):
 
 # --- teaching ---------------------------------------------------------------------------------------
 class Right(Message):
-    """What would be right here; nothing is learned before `keep`."""
+    """What would be right here, at a speed [m/s]; nothing is learned before `keep`."""
 
     skill: Name
     speed: Rate | None = None
-    turn: Rate | None = None
     about: Name = ""
     name: Name = ""
 
@@ -193,7 +192,9 @@ class Ok(Message):
 
 
 class Keep(Message):
-    """What was tried is learned."""
+    """What was tried is learned; refused where it is another lesson than the one named."""
+
+    lesson: Name = ""
 
 
 class Back(Message):
@@ -207,9 +208,11 @@ class Forget(Message):
 
 
 class Why(Anyone):
-    """Why it does what it does, or why a rule does not fire."""
+    """Why it does what it does, or why a rule does not fire; in `brief` only what fires, and in what
+    situation."""
 
     rule: Name = ""
+    brief: bool = False
 
 
 class Order(Message):

@@ -1,6 +1,7 @@
 """Recordings of a studio in a folder: kept under names of their own, listed, found again."""
 
 import re
+from collections.abc import Collection
 from datetime import datetime
 from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
@@ -19,21 +20,28 @@ class Kept(Protocol):
     def save(self, path: Path) -> Path: ...
 
 
+def plain_name(name: str) -> str:
+    """A name for a file: small letters, digits, and a few signs in the place of others."""
+    return re.sub(r"[^a-z0-9_.-]", "-", name.lower())[:80].strip(".") or "-"
+
+
 class Shelf:
     """A folder of recordings."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
 
-    def keep(self, recording: Kept, robot: str) -> str:
-        """Writes a recording; its name, without an ending. Nothing that is there is written over."""
+    def keep(self, recording: Kept, name: str) -> Path:
+        """Writes a recording under a name of `free_name`, whole or not at all."""
         self.folder.mkdir(parents=True, exist_ok=True)
-        stem = f"{datetime.now():%Y-%m-%d_%H-%M-%S}_{robot}"
-        stem = re.sub(r"[^a-z0-9_.-]", "-", stem.lower())
+        return recording.save(self.folder / f"{name}.npz")
+
+    def free_name(self, robot: str, taken: Collection[str] = ()) -> str:
+        """A name for a recording that is made now, without an ending: nothing that is there, or `taken`, has
+        it."""
+        stem = plain_name(f"{datetime.now():%Y-%m-%d_%H-%M-%S}_{robot}")
         names = (stem, *(f"{stem}_{k}" for k in range(2, MOST)))
-        name = next(one for one in names if not (self.folder / f"{one}.npz").exists())
-        recording.save(self.folder / f"{name}.npz")
-        return name
+        return next(one for one in names if one not in taken and not (self.folder / f"{one}.npz").exists())
 
     def listed(self) -> list[dict[str, Any]]:
         """Name and size of each, the newest first."""

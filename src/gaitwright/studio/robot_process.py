@@ -4,15 +4,20 @@ Quick to import: it is the first thing that a studio begins, since a robot takes
 """
 
 import multiprocessing
+import threading
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
+from queue import Full, Queue
 
+from gaitwright.errors import WrongUse
 from gaitwright.studio.messages import Reset
-from gaitwright.studio.setup import FROM, Ends, Setup, begin
+from gaitwright.studio.setup import FROM, Ends, Gone, Setup, begin
 
-SETTLES = 10.0
-"""It may take so long to end [s]."""
+WRITES, SETTLES = 120.0, 3.0
+"""It may take so long to end where it has a recording to write, and where it is begun anew [s]."""
+MOST_WAITING = 1000
+"""So much may be asked that it has not heard yet."""
 
 
 class RobotProcess:
@@ -38,22 +43,37 @@ class RobotProcess:
         self.process.start()
         for end in theirs:
             end.close()
+        self.asked = Queue[bytes | None](MOST_WAITING)
+        threading.Thread(target=hand_on, args=(self.asked, self.ends), daemon=True).start()
 
     def again(self, said: Reset) -> None:
-        """Another run in the place of one that has ended."""
-        self.end()
+        """Another run in the place of one that has ended, or that does not answer."""
+        self.end(SETTLES)
         given = {name: getattr(said, name) for name in self.setup.__slots__}
-        self.setup = replace(self.setup, **{name: of for name, of in given.items() if of is not None})
+        asked = {name: of for name, of in given.items() if of is not None}
+        self.setup = replace(self.setup, **asked)
         self.begin()
 
     def ask(self, who: int, text: bytes) -> None:
-        """Hands on what a page asks."""
-        with suppress(OSError):  # it is gone: what it said last tells so
-            self.ends.send_bytes(FROM.pack(who) + text)
+        """Hands on what a page asks. Raises `WrongUse` where too much waits to be heard."""
+        try:
+            self.asked.put_nowait(FROM.pack(who) + text)
+        except Full:
+            raise WrongUse("the robot's process does not answer: a reset begins another") from None
 
-    def end(self) -> None:
+    def end(self, patience: float = WRITES) -> None:
         """Ends it; it keeps what was recorded."""
-        self.ends.tells.close()
-        self.process.join(SETTLES)
+        with suppress(Full):
+            self.asked.put_nowait(None)
+        self.process.join(patience if self.process.is_alive() else 0.0)
         if self.process.is_alive():
             self.process.terminate()
+
+
+def hand_on(asked: "Queue[bytes | None]", ends: Ends) -> None:
+    """Writes what is asked, in a thread of its own: who writes to one that does not read waits. At the end it
+    closes the way there, which ends the process."""
+    with suppress(Gone):
+        while (text := asked.get()) is not None:
+            ends.send_bytes(text)
+    ends.tells.close()

@@ -12,8 +12,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Protocol
 
-from gaitwright.errors import WrongUse, unknown
-from gaitwright.ground.scenes_list import parse, scene_names
+from gaitwright.errors import WrongUse
+from gaitwright.ground.scenes_list import scene_names
 from gaitwright.model.catalogue import robot_names
 from gaitwright.navigation.travel import Travel
 from gaitwright.record.previews import preview_of
@@ -25,6 +25,7 @@ from gaitwright.studio.curve_desk import CurveDesk
 from gaitwright.studio.driving_desk import DrivingDesk
 from gaitwright.studio.frames import columns_of, frame_of, row_of
 from gaitwright.studio.live_run import LiveRun
+from gaitwright.studio.names_asked import check_names
 from gaitwright.studio.recording_desk import RecordingDesk
 from gaitwright.studio.setup import DRIVERS, Setup, who_drives
 from gaitwright.studio.shown import boxes_shown, scan_shown, seen_shown, things_shown, world_shown
@@ -59,7 +60,7 @@ class Room:
         self.paused, self.pace = False, 1.0
         self.teaching = TeachingDesk(ledger, say)
         self.driving = DrivingDesk(self.teaching, say)
-        self.recording = RecordingDesk(folder)
+        self.recording = RecordingDesk(folder, say)
         self.curves = CurveDesk(ledger, folder, say)
         self.world = WorldDesk(self.say_boxes)
         desks: tuple[Desk, ...] = (self.driving, self.teaching, self.curves, self.recording, self.world)
@@ -70,11 +71,11 @@ class Room:
         }  # fmt: skip
         for desk in desks:
             self.does |= desk.does
-        self.begin(setup)
+        self.begin(LiveRun(setup, ledger))
 
-    def begin(self, setup: Setup) -> None:
-        """A run from its start. Raises `WrongUse` or `BadFile`; then the one before goes on."""
-        self.run = LiveRun(setup, self.ledger)
+    def begin(self, run: LiveRun) -> None:
+        """From now on it is about this run."""
+        self.run = run
         self.ticks = Counter[str]()
         self.shown: tuple[GroundMap | None, tuple[float, float]] = None, (0.0, 0.0)
         """What was known of the ground when it was shown last, and where the robot was."""
@@ -85,6 +86,7 @@ class Room:
         """Does what is asked; what is answered beside that it is done. Raises `GaitwrightError`."""
         if type(message) not in self.does:
             raise WrongUse(f"{message.__struct_config__.tag} is not done here")
+        self.driving.score.check(message)
         answer = self.does[type(message)](message)
         self.driving.score.hear(self.run.time, message)
         return answer
@@ -98,6 +100,10 @@ class Room:
     def lap(self) -> bool:
         """One control period; whether there was one."""
         lap = self.run.step()
+        recorder = self.run.recorder
+        if recorder is not None and recorder.no_room is not None:
+            self.say({"say": "remark", "sentence": f"the recording ends here: {recorder.no_room}"})
+            self.recording.end()
         if lap is None:
             return False
         self.ticks[who_drives(lap.call.driver or self.run.driver)] += 1
@@ -121,21 +127,18 @@ class Room:
     def set_pace(self, said: m.Pace) -> None:
         self.pace = said.factor
 
-    def reset(self, said: m.Reset) -> None:
+    def reset(self, said: m.Reset) -> Answer:
+        """Another run; where there cannot be one, the one before goes on (`WrongUse`, `BadFile`)."""
         asked = {name: getattr(said, name) for name in ("robot", "scene", "seed", "sight", "driver")}
         given = {name: value for name, value in asked.items() if value is not None}
-        self.check_names(said)
-        setup = replace(self.run.setup, **given)
-        self.recording.end()
-        self.begin(setup)
+        check_names(said, self.own)
+        run = LiveRun(replace(self.run.setup, **given), self.ledger)
+        kept = self.recording.end()
+        self.run.session.close()
+        self.begin(run)
+        self.lap()  # so that there is something to be seen, also while time stands
         self.welcome()
-
-    def check_names(self, said: m.Reset) -> None:
-        """Raises `WrongUse` for a file that the command line did not name: a page names none."""
-        if said.robot not in (None, self.own.robot, *robot_names()):
-            raise unknown("robot", str(said.robot), robot_names())
-        if said.scene not in (None, self.own.scene):
-            parse(str(said.scene))
+        return kept
 
     # --- what is said -------------------------------------------------------------------------------
     def welcome(self) -> None:
@@ -147,6 +150,7 @@ class Room:
             "modes": list(m.MODES),
             "skills": list(skill_names(legs)),
             "robots": list(robot_names()),
+            "forms": self.recording.forms,
             "scenes": [{"name": name, "about": about} for name, about in scene_names().items()],
         }
         self.say({"say": "hello", "version": 1, "columns": columns_of(legs), "choices": choices})
@@ -163,6 +167,7 @@ class Room:
 
     def status(self) -> dict[str, Any]:
         """What is so now."""
+        self.recording.after()
         own = {"paused": self.paused, "pace": self.pace, **self.driving.status()}
         return status_of(self.run, self.ticks) | own
 
@@ -187,6 +192,8 @@ class Room:
     def say_seen(self) -> None:
         """What the robot knows of the ground, where that is more than before, or it went on a little."""
         mind = self.run.session.mind
+        if not self.run.sensed.is_finite():
+            return
         x, y, _ = self.run.sensed.position_w.tolist()
         if self.shown[0] is mind.ground and math.dist(self.shown[1], (x, y)) < WENT_ON:
             return

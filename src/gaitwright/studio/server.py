@@ -1,10 +1,12 @@
 """The studio's one port: the page, its live connection, recordings to take home (Starlette).
 
 Whoever asks must name this machine as the host, come from the studio's own page where a browser says where it
-comes from, and know the token, which only the address has that `gaitwright studio` prints.
+comes from, and know the token, which only the address has that `gaitwright studio` prints. A browser that it
+opens is given a ticket instead, which is good once: what a program is called with, others can read.
 """
 
 import asyncio
+import hashlib
 import hmac
 import sys
 from pathlib import Path
@@ -13,7 +15,7 @@ from urllib.parse import urlsplit
 from starlette.applications import Starlette
 from starlette.exceptions import HTTPException
 from starlette.requests import HTTPConnection, Request
-from starlette.responses import FileResponse, Response
+from starlette.responses import FileResponse, RedirectResponse, Response
 from starlette.routing import Mount, Route, WebSocketRoute
 from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp, Receive, Scope, Send
@@ -39,27 +41,46 @@ HEADERS = [
     (b"referrer-policy", b"no-referrer"),
     (b"cache-control", b"no-cache"),
 ]
-NO_ENTRY, FULL, DENIED = 403, 503, 4403
+NO_ENTRY, DENIED = 403, 4403
 """Answers: of HTTP, and of a socket that is closed before it opens."""
 
 
-def application(hub: Hub, page: Path, shelf: Shelf, token: str, hosts: frozenset[str] = LOOPBACK) -> ASGIApp:
-    """The studio as a web application. `hosts`: by what names it may be called."""
+def application(
+    hub: Hub, page: Path, shelf: Shelf, token: str, hosts: frozenset[str] = LOOPBACK, ticket: str = ""
+) -> ASGIApp:
+    """The studio as a web application. `hosts`: by what names it may be called; `ticket`: for one browser."""
+    tickets = {ticket} - {""}
+    making = asyncio.Lock()
 
     async def index(request: Request) -> Response:
         return FileResponse(page / "index.html")
 
+    async def let_in(request: Request) -> Response:
+        if request.path_params["ticket"] not in tickets:
+            raise HTTPException(NO_ENTRY, "this was good once: the address that is printed is good for ever")
+        tickets.clear()
+        return RedirectResponse(f"/?token={token}", 303)
+
     async def recording(request: Request) -> Response:
         check_token(request, token)
+        name = request.path_params["name"]
         try:
-            path = await taken_home(shelf, request.path_params["name"])
+            async with making:
+                path = await taken_home(shelf, name)
         except WrongUse as error:
             raise HTTPException(404, str(error)) from None
-        policy = REPLAY_POLICY if path.suffix == ".html" else POLICY
-        return FileResponse(path, headers={SECURITY.decode(): policy})
+        if path.suffix == ".html":  # it has a script inside, which finds no token where it is shown
+            return RedirectResponse(f"/shown/{signed(token, name)}/{name}", 303)
+        return FileResponse(path)
+
+    async def shown(request: Request) -> Response:
+        name = request.path_params["name"]
+        if not same(request.path_params["ticket"], signed(token, name)) or not shelf.has(name):
+            raise HTTPException(NO_ENTRY, "there is no such replay: open it from the studio's page")
+        return FileResponse(shelf.path(name), headers={SECURITY.decode(): REPLAY_POLICY})
 
     async def live(socket: WebSocket) -> None:
-        if not hmac.compare_digest(socket.query_params.get("token", ""), token):
+        if not same(socket.query_params.get("token", ""), token):
             await socket.close(DENIED)
             return
         try:
@@ -72,7 +93,9 @@ def application(hub: Hub, page: Path, shelf: Shelf, token: str, hosts: frozenset
 
     routes = [
         Route("/", index),
+        Route("/open/{ticket}", let_in),
         Route("/recordings/{name}", recording),
+        Route("/shown/{ticket}/{name}", shown),
         WebSocketRoute("/live", live),
         Mount("/", StaticFiles(directory=page)),
     ]
@@ -125,8 +148,18 @@ async def tell(member: Member, socket: WebSocket) -> None:
 
 def check_token(request: HTTPConnection, token: str) -> None:
     """Refuses who does not know the token."""
-    if not hmac.compare_digest(request.query_params.get("token", ""), token):
+    if not same(request.query_params.get("token", ""), token):
         raise HTTPException(NO_ENTRY, "the address lacks the token that `gaitwright studio` printed")
+
+
+def same(one: str, other: str) -> bool:
+    """Whether two secrets are the same, found out in a time that says nothing."""
+    return hmac.compare_digest(one.encode(), other.encode())
+
+
+def signed(token: str, name: str) -> str:
+    """What lets one see one recording, and nothing else."""
+    return hmac.new(token.encode(), name.encode(), hashlib.sha256).hexdigest()
 
 
 class Guarded:

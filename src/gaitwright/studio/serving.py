@@ -8,7 +8,9 @@ import socket
 import threading
 from collections.abc import Callable, Coroutine
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import partial
+from ipaddress import ip_address
 from pathlib import Path
 
 import uvicorn
@@ -16,10 +18,11 @@ import uvicorn
 from gaitwright.errors import BadFile, GaitwrightError, WrongUse
 from gaitwright.studio.hub import Hub
 from gaitwright.studio.messages import MOST_BYTES, Reset
+from gaitwright.studio.names_asked import check_names
 from gaitwright.studio.recordings import Shelf
 from gaitwright.studio.robot_process import RobotProcess
 from gaitwright.studio.server import LOOPBACK, application
-from gaitwright.studio.setup import EVERYBODY, FROM, Ends
+from gaitwright.studio.setup import EVERYBODY, FROM, Ends, Gone
 
 CLOSED = b'{"say":"closed","because":"the process with the robot has ended unexpectedly"}'
 
@@ -36,16 +39,22 @@ class Serving:
     port: int = 0
     """0: any that is free."""
     token: str = field(default_factory=lambda: secrets.token_urlsafe(18))
+    ticket: str = field(default_factory=lambda: secrets.token_urlsafe(18))
+    """Lets a browser in once."""
 
 
-def serve(robot: RobotProcess, what: Serving, opened: Callable[[str], None]) -> None:
-    """Serves until it is interrupted. `opened` is told the address as soon as pages can be asked for.
+def serve(robot: RobotProcess, what: Serving, opened: Callable[[str, str], None]) -> None:
+    """Serves until it is interrupted. `opened` is told the address as soon as pages can be asked for, and one
+    that is good once.
 
-    Raises `WrongUse` where the port is taken, and what the robot's process raised where it could not begin.
+    Raises `WrongUse` where the port is taken or the address is none of a machine, and what the robot's
+    process raised where it could not begin.
     """
+    check_address(what.address)
     with bound(what.address, what.port) as place:
         name = f"[{what.address}]" if ":" in what.address else what.address
-        opened(f"http://{name}:{place.getsockname()[1]}/?token={what.token}")
+        where = f"http://{name}:{place.getsockname()[1]}"
+        opened(f"{where}/?token={what.token}", f"{where}/open/{what.ticket}")
         hub = until_told(served(robot, what, place))
     if hub is not None and hub.closed and "hello" not in hub.last:
         raise ended(hub.last["closed"])
@@ -63,23 +72,31 @@ def until_told(serving: Coroutine[None, None, Hub]) -> Hub | None:
 async def served(robot: RobotProcess, what: Serving, place: socket.socket) -> Hub:
     """Serves on a socket, until it is told to end or the robot's process cannot begin."""
     loop = asyncio.get_running_loop()
-    began = False
+    own, began, runs = robot.setup, False, 0
 
-    def told(who: int, said: bytes) -> None:
+    def told(run: int, who: int, said: bytes) -> None:
         nonlocal began
+        if run != runs:  # of one that was given up
+            return
         hub.told(who, said)
         began = began or "hello" in hub.last
         server.should_exit = server.should_exit or (hub.closed and not began)
 
     def attend() -> None:
-        threading.Thread(target=listen, args=(robot.ends, loop, told), daemon=True).start()
+        nonlocal runs
+        runs += 1
+        listening = robot.ends, loop, partial(told, runs)
+        threading.Thread(target=listen, args=listening, daemon=True).start()
 
     def restart(said: Reset) -> None:
+        check_names(said, own)
+        robot.setup = replace(own, **hub.setup)  # as it was, not as it could not be begun
         robot.again(said)
         attend()
 
     hub = Hub(robot.ask, restart)
-    app = application(hub, what.page, Shelf(what.folder), what.token, LOOPBACK | {what.address})
+    hosts = LOOPBACK | {what.address.lower()}
+    app = application(hub, what.page, Shelf(what.folder), what.token, hosts, what.ticket)
     config = uvicorn.Config(app, log_level="warning", ws_max_size=MOST_BYTES, timeout_graceful_shutdown=1)
     server = uvicorn.Server(config)
     attend()
@@ -107,8 +124,18 @@ def listen(pipe: Ends, loop: asyncio.AbstractEventLoop, told: Callable[[int, byt
             said = pipe.recv_bytes()
             (who,) = FROM.unpack_from(said)
             hand_on(who, said[FROM.size :])
-    except (EOFError, OSError):
+    except Gone:
         hand_on(EVERYBODY, CLOSED)
+
+
+def check_address(address: str) -> None:
+    """Raises `WrongUse` for one that stands for all of a machine's: nobody could be called by it."""
+    with suppress(ValueError):
+        if ip_address(address).is_unspecified:
+            raise WrongUse(
+                f"--host {address} stands for every address of this machine; name the one that others reach "
+                "it by, or stay on 127.0.0.1 and come through `ssh -L`"
+            )
 
 
 @contextmanager

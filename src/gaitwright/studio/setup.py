@@ -1,6 +1,8 @@
 """What is begun, and how the server and the process with the robot talk: nothing here is slow to import."""
 
 import struct
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection
@@ -32,6 +34,10 @@ def who_drives(driver: str) -> str:
     return NUMERICAL if driver == HYBRID else driver
 
 
+class Gone(Exception):
+    """Whoever was at the other end is there no more."""
+
+
 class Ends(NamedTuple):
     """One side of the connection between server and robot: two pipes, each for one way.
 
@@ -49,17 +55,31 @@ class Ends(NamedTuple):
         return cls(ours_in, ours_out), cls(theirs_in, theirs_out)
 
     def send_bytes(self, said: bytes) -> None:
-        self.tells.send_bytes(said)
+        """Raises `Gone`, as the others do."""
+        with attended():
+            self.tells.send_bytes(said)
 
     def recv_bytes(self) -> bytes:
-        return self.hears.recv_bytes()
+        with attended():
+            return self.hears.recv_bytes()
 
     def poll(self, timeout: float = 0.0) -> bool:
-        return self.hears.poll(timeout)
+        with attended():
+            return self.hears.poll(timeout)
+
+
+@contextmanager
+def attended() -> Iterator[None]:
+    """What a pipe raises when nobody is at its other end becomes `Gone`."""
+    try:
+        yield
+    except (EOFError, OSError) as error:
+        raise Gone(str(error)) from None
 
 
 def begin(pipe: Ends, setup: Setup, book: str, folder: str, begins: bool) -> None:
-    """In a process of its own: the robot, at this end of a pipe. `begins`: as in `serving.Serving`."""
+    """In a process of its own: the robot, at this end of a pipe. `begins`: whether a book that is not there
+    is begun."""
     from gaitwright.studio.host import host  # noqa: PLC0415 - only here: it takes seconds to import
 
     host(pipe, setup, Path(book), Path(folder), begins)

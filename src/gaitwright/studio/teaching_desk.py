@@ -17,6 +17,7 @@ from gaitwright.learning.said_action import Words, said_action
 from gaitwright.learning.teacher import Shown
 from gaitwright.skillbook.writer import Ledger
 from gaitwright.skills.book_trees import in_trees_of
+from gaitwright.skills.library import speed_scale
 from gaitwright.skills.what_if import what_if
 from gaitwright.studio import messages as m
 from gaitwright.studio.live_run import LiveRun
@@ -71,7 +72,8 @@ class TeachingDesk:
     def right(self, said: m.Right) -> dict[str, Any]:
         """What it would do to be told what is right now. Raises `WrongUse` for what cannot be said."""
         pupil = self.live.pupil
-        speed = None if said.speed is None else (said.speed, said.speed)
+        slow = None if said.speed is None else said.speed / speed_scale(self.run.robot)
+        speed = None if slow is None else (slow, slow)
         action = said_action(Words(said.skill, speed), self.run.robot, pupil.actions)
         if said.about and said.about not in pupil.vocabulary.names:
             raise unknown("number", said.about, pupil.vocabulary.names)
@@ -119,6 +121,8 @@ class TeachingDesk:
         if self.open is None:
             raise WrongUse("there is nothing to keep: say what is right first")
         tried = self.open
+        if said.lesson not in ("", tried.told.id):
+            raise WrongUse(f"what waits to be kept is {tried.told.id} by now, not {said.lesson}")
         self.settle()
         self.live.keep(tried)
         self.run.note("lesson", f"{tried.told.id}: {sentence_of(tried)}")
@@ -144,17 +148,21 @@ class TeachingDesk:
     # --- shown --------------------------------------------------------------------------------------
     def why(self, said: m.Why) -> dict[str, Any]:
         """Why it does what it does, or why a rule does not fire; what would have to be different for that
-        rule to fire, or any other; and the situation that all this is about."""
+        rule to fire, or any other; and the situation that all this is about. In `brief` this alone, and what
+        fires."""
         book, moment = self.rulebook, self.source.here().moment
         situation = in_trees_of(book, moment.situation, moment.facts)
         decision = consult(book, situation)
+        known = {tree: situation[tree] for tree in book.forest.names}
+        brief = {"situation": known, "fires": decision.rule or ""}
+        if said.brief:
+            return {"sentences": [], "different": "", **brief}
         why = [self.run.session.mind.call.because, because(book, decision)]
         other = "" if said.rule == decision.rule else said.rule
         return {
             "sentences": [why_not(book, said.rule, situation)] if said.rule else why,
             "different": what_if(book, moment.facts, other).sentence if book.rules else "",
-            "situation": {tree: situation[tree] for tree in book.forest.names},
-            "fires": decision.rule or "",
+            **brief,
         }
 
     def say_rules(self) -> None:
