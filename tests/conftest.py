@@ -39,6 +39,16 @@ numba.njit = _compile_the_function_itself(numba.njit)
 numba.cfunc = _compile_the_function_itself(numba.cfunc)
 
 
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """What a module sets up once for its tests is set up by one process, not by every one."""
+    for item in items:
+        fixtures = getattr(item, "_fixtureinfo").name2fixturedefs  # noqa: B009 - it has no public name
+        is_shared = any(one.scope == "module" for made in fixtures.values() for one in made)
+        if is_shared and item.get_closest_marker("xdist_group") is None:
+            item.add_marker(pytest.mark.xdist_group(item.nodeid.partition("::")[0]))
+
+
 @pytest.fixture
 def rng() -> np.random.Generator:
     """Random numbers that are the same in every run."""
