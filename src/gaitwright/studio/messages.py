@@ -1,7 +1,7 @@
 """What a page may say: each message as a value, checked; whatever else comes is refused with a sentence.
 
-A message is a JSON object whose field `do` names it; where it has an `id`, it is answered. docs/studio.md says
-what a person does with them.
+A message is a JSON object whose field `do` names it; where it has an `id`, it is answered. docs/studio.md
+says what a person does with them.
 """
 
 import math
