@@ -9,7 +9,7 @@ from gaitwright.errors import WrongUse
 from gaitwright.studio.hub import Hub
 from gaitwright.studio.recordings import Shelf
 from gaitwright.studio.server import application
-from gaitwright.studio.serving import check_address
+from gaitwright.studio.serving import bound, check_address
 
 TOKEN, NAME = "the token", "2026-01-01_go2.html"
 
@@ -74,3 +74,8 @@ def test_an_address_that_nobody_can_be_called_by_is_refused(address: str):
 @pytest.mark.parametrize("address", ["127.0.0.1", "192.168.1.5", "robot.local", "::1"])
 def test_others_may_be_served_on(address: str):
     check_address(address)
+
+
+def test_an_address_of_another_machine_cannot_be_served_on():
+    with pytest.raises(WrongUse, match=r"1\.2\.3\.4 port 0 cannot be served on"), bound("1.2.3.4", 0):
+        pass

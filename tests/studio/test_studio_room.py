@@ -17,8 +17,9 @@ from gaitwright.skills.giving_way import GivesWay
 from gaitwright.skills.library import speed_scale
 from gaitwright.studio import messages as m
 from gaitwright.studio.frames import LAYOUT, columns_of, row_of
+from gaitwright.studio.live_run import LiveRun
 from gaitwright.studio.room import Room
-from gaitwright.studio.setup import DRIVERS
+from gaitwright.studio.setup import DRIVERS, Setup
 
 
 @pytest.fixture
@@ -182,6 +183,20 @@ def test_a_push_is_felt(room: Room):
     room.hears(m.Push(impulse=0.4, direction=math.pi / 2))
     laps(room, 0.1)
     assert room.run.sensed.velocity_w[1] > 0.1
+
+
+@pytest.mark.parametrize(
+    ("setup", "sentence"),
+    [
+        (Setup(robot="none.xml"), "none.xml"),
+        (Setup(driver="learned"), "no driver learned here"),
+        (Setup(driver="nobody"), "no driver 'nobody'"),
+        (Setup(scene="nowhere"), "no scene 'nowhere'"),
+    ],
+)
+def test_what_there_is_not_cannot_be_begun(room: Room, setup: Setup, sentence: str):
+    with pytest.raises(GaitwrightError, match=sentence):
+        LiveRun(setup, room.ledger)
 
 
 # --- what is kept -----------------------------------------------------------------------------------

@@ -158,11 +158,8 @@ def test_it_keeps_what_was_recorded_when_it_is_told_to_end(page_is_built: None, 
     ("options", "code", "sentence"),
     [
         (("--scene", "nowhere"), 2, "no scene 'nowhere'"),
-        (("--robot", "none.xml"), 3, "none.xml"),
-        (("--driver", "learned"), 2, "no driver learned here"),
         (("--skillbook", "no.skills"), 3, "no.skills"),
         (("--port", "99999"), 2, "port"),
-        (("--host", "1.2.3.4"), 2, "1.2.3.4 port 0 cannot be served on"),
     ],
 )
 def test_what_cannot_be_opened_is_told_in_a_sentence(page_is_built: None, tmp_path, options, code, sentence):
