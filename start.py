@@ -41,7 +41,7 @@ TESTS = [
     "--dist",
     "loadgroup",
 ]  # one process for each core; `-n 0` for one in all
-COMPILES = ["mission", "--scene", "blocks", "--seconds", "0.1"]
+COMPILES = ["mission", "--scene", "blocks", "--goal", "3", "0", "--seconds", "0.1"]
 PINNED = ["-c", "constraints.txt", "-b", "constraints.txt", "-e", ".[plot,record,studio]"]
 
 

@@ -11,6 +11,7 @@ from time import perf_counter
 import numpy as np
 from rich.text import Text
 
+from gaitwright import compiled_ahead
 from gaitwright.assess.suitability import Finding, runs, suitability, summary
 from gaitwright.cli.console import EVERY, remark, show_table, working
 from gaitwright.cli.output import check_json, write_json
@@ -82,6 +83,7 @@ def check(args: Namespace) -> int:
     robot, notes = found(args.check, args.package)
     if not is_warm():
         remark("compiling kernels (first run only, up to two minutes) …")
+        compiled_ahead.begin()
     with told_now_and_then() as tell:
         findings = suitability(robot, notes, tell)
     sentence, good = summary(robot, findings), runs(findings)

@@ -9,6 +9,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from time import perf_counter
 
+from gaitwright import compiled_ahead
 from gaitwright.cli.console import Simulating, remark, show_pairs, working
 from gaitwright.cli.mechanics_check import Checks
 from gaitwright.cli.output import check_folder, check_json, write_json, write_whole
@@ -158,6 +159,7 @@ def run(
     """Simulates, reports, leaves the files in `args.out`; returns the exit code. `after` gets what was
     recorded and what the robot remembers, also where the rest is broken off."""
     check_mechanics(mission.driver, args)
+    compiled_ahead.begin()
     broken = [breakdown(setting.robot, *asked) for asked in getattr(args, "fault", [])]
     senses = sensors_of(args)
     cold = args.plant == "armstrong" and not is_warm("integrators.advance")

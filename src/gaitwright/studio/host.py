@@ -14,6 +14,7 @@ from typing import Any
 
 import msgspec
 
+from gaitwright import compiled_ahead
 from gaitwright.errors import GaitwrightError
 from gaitwright.session import DT
 from gaitwright.skillbook.book import Skillbook
@@ -34,6 +35,7 @@ BEHIND = 0.1
 def host(pipe: Ends, setup: Setup, book: Path, folder: Path, begins: bool) -> None:
     """Runs until the other end of the pipe is gone; says why where it cannot."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # for the server to act on: it closes the pipe
+    compiled_ahead.begin()
     try:
         if begins and not book.exists():
             folder.mkdir(parents=True, exist_ok=True)

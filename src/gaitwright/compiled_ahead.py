@@ -1,0 +1,47 @@
+"""At a first run kernels are compiled, which takes a minute: a second process takes half of that on itself.
+
+numba compiles in one thread. What the numerical controller and the watch are made of is known before
+anything moves; so while a run compiles what comes before them, `python -m gaitwright.compiled_ahead` compiles
+these, and the run finds them done (`numerics.compiled.alone`).
+"""
+
+import subprocess
+import sys
+from contextlib import suppress
+
+import numpy as np
+
+from gaitwright.control.numerical import NumericalController
+from gaitwright.description.load import load_robot
+from gaitwright.numerics.compiled import is_warm
+from gaitwright.perception.watch import Watch
+from gaitwright.signals import Measured, MotionTarget
+from gaitwright.workers import cores
+
+
+def begin() -> None:
+    """Begins it, where there is something to compile and a core for it; nobody waits for its end."""
+    if is_warm() or cores() < 2:
+        return
+    command, quiet = [sys.executable, "-m", "gaitwright.compiled_ahead"], subprocess.DEVNULL
+    with suppress(OSError):  # then the run does it all
+        subprocess.Popen(command, stdin=quiet, stdout=quiet, stderr=quiet)
+
+
+def compile_control() -> None:
+    """A tick of control and two of the watch, for a robot that floats at the origin: any numbers do."""
+    robot = load_robot("go2")
+    row = np.zeros(Measured.layout.size(robot.n))
+    measured = Measured.of_row(row, time=0.0, specific_force_b=(0.0, 0.0, 9.81))
+    measured.orientation_wb[0] = 1.0
+    target = MotionTarget.of_row(np.zeros(MotionTarget.layout.size(robot.n)))
+    target.rotation_wb[:] = np.eye(3)
+    target.stance[:] = 1.0
+    command, _ = NumericalController(robot).command(target, measured)
+    watch = Watch(robot, 0.002)
+    _, memory = watch.check(measured, measured, None)
+    watch.check(measured, measured, watch.heard(memory, target, command, measured))
+
+
+if __name__ == "__main__":
+    compile_control()
