@@ -10,14 +10,18 @@ import type {
 } from "./protocol";
 import { Smooth } from "./smooth";
 import type { Link, Source } from "./source";
-import { sameGround } from "./view/same";
 
 const VERSION = 1;
 const ANSWER_WITHIN = 15_000;
 /** What is seen in physics first may take long where it is done for the first time. */
 const SEEN_WITHIN = 120_000;
 const NO_STUDIO = "no studio answers here: where it was closed, start it again; this page looks for it";
-const NO_ENTRY = "this is not the whole address of the studio that is open here: open the one that it printed";
+const NO_ENTRY = "the studio that is open here has another address than this page: open the one that it printed";
+const NO_ROOM = "the studio has no room for another page: close one; this page tries again";
+/** By how a request is answered that comes with the page's token. */
+const REFUSED: Record<number, string> = { 403: NO_ENTRY, 404: NO_ROOM };
+/** What nobody may have without the token, whether it is there or not. */
+const PROBE = "recordings/none.npz";
 /** Panels ask these by themselves, and show what is refused: the bar below has nothing to do with it. */
 const LOOKS = new Set<Command["do"]>(["why", "curve", "recordings"]);
 const RETRY = [500, 1000, 2000, 4000];
@@ -142,10 +146,11 @@ export class Live implements Source {
       this.closed.value = this.lost.value = "";
       this.link.value = "open";
     };
-    socket.onclose = () => {
+    socket.onclose = ({ reason }) => {
       this.link.value = "lost";
       this.role.value = { ...this.role.peek(), role: "watcher" };
-      if (this.failures > 0) void this.ask();
+      if (reason) this.lost.value = reason;
+      else if (this.failures > 0) void this.ask();
       const left = [...this.waiting.values()];
       this.waiting.clear();
       for (const answer of left) answer({ done: false, because: "the connection was lost" });
@@ -153,10 +158,12 @@ export class Live implements Source {
     };
   }
 
-  /** Finds out why there is no connection: a studio that answers does not know this page's token. */
+  /** Finds out why there is no connection: a browser does not say how a socket was refused. */
   private async ask(): Promise<void> {
-    const answers = await fetch(location.pathname, { cache: "no-store" }).then((answer) => answer.ok, () => false);
-    if (this.link.peek() !== "open") this.lost.value = answers ? NO_ENTRY : NO_STUDIO;
+    const address = new URL(PROBE, location.href);
+    address.search = new URL(this.address).search;
+    const status = await fetch(address, { cache: "no-store" }).then((answer) => answer.status, () => 0);
+    if (this.link.peek() !== "open") this.lost.value = REFUSED[status] ?? NO_STUDIO;
   }
 
   private show(data: ArrayBuffer): void {
@@ -175,9 +182,7 @@ export class Live implements Source {
   private hear(message: FromServer): void {
     switch (message.say) {
       case "hello":
-        this.arrange(new Layout(message.columns));
-        this.hello.value = message;
-        this.closed.value = ""; // where a run had ended, another one begins
+        this.begin(message);
         if (message.version !== VERSION) this.closed.value = "the studio is newer than this page: load it again";
         break;
       case "world":
@@ -203,26 +208,26 @@ export class Live implements Source {
     if (known) known.value = what;
   }
 
-  /** Another world; where only its boxes are others, all else is kept. */
+  /** Another run, or this page comes to one: what is known of the one before holds no longer. */
+  private begin(hello: Hello): void {
+    const layout = new Layout(hello.columns);
+    this.smooth = new Smooth(layout, layout.at("time"));
+    this.histories = [];
+    const isOther = JSON.stringify(layout.columns) !== JSON.stringify(this.layout.peek()?.columns);
+    batch(() => {
+      if (isOther) this.layout.value = layout;
+      this.moved.value = this.scan.value = this.seen.value = this.tried.value = null;
+      this.closed.value = ""; // where a run had ended, another one begins
+      this.hello.value = hello;
+    });
+  }
+
+  /** The world of the run that began. */
   private settle(world: World): void {
-    if (!sameGround(world, this.world.peek())) {
-      this.smooth?.clear();
-      this.histories = [];
-      this.seen.value = this.scan.value = null;
-    }
-    this.moved.value = null;
     batch(() => {
       this.world.value = world;
       this.boxes.value = world.boxes;
     });
-  }
-
-  /** Columns as told in `hello`, which comes again after a reconnection or another role. */
-  private arrange(layout: Layout): void {
-    if (JSON.stringify(layout.columns) === JSON.stringify(this.layout.value?.columns)) return;
-    this.smooth = new Smooth(layout, layout.at("time"));
-    this.histories = [];
-    this.layout.value = layout;
   }
 
   private answered(message: Extract<FromServer, { say: "done" | "refused" }>): void {

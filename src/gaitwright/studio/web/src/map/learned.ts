@@ -2,9 +2,8 @@
 
 import { effect, signal } from "@preact/signals";
 import { floats } from "../bytes";
-import type { Seen, Vec2, World } from "../protocol";
+import type { Seen, Vec2 } from "../protocol";
 import type { Source } from "../source";
-import { sameGround } from "../view/same";
 
 /** Cells along a side of a tile. */
 export const SIDE = 64;
@@ -84,32 +83,13 @@ export const learned = new Learned();
 /** Changes whenever there is more to draw. */
 export const news = signal(0);
 
-/** Gathers what a source tells, from now on. */
+/** Gathers what a source tells. A run begins with a `hello`; who comes later is then told what was seen before. */
 export function gather(source: Source): () => void {
-  let world: World | null = null;
-  let before: Seen | null = null;
-  let time = -Infinity;
-  const anew = () => {
-    learned.clear();
-    news.value = news.peek() + 1;
-  };
   const stops = [
     effect(() => {
-      const now = source.world.value;
-      before = source.seen.peek();
-      if (!now || sameGround(now, world)) return;
-      world = now;
-      anew();
-    }),
-    effect(() => {
-      const now = source.status.value?.time ?? time;
-      if (now < time) {
-        // another run on the same ground: of what was seen only that counts which was told since
-        anew();
-        const seen = source.seen.peek();
-        if (seen && seen !== before) learned.add(seen);
-      }
-      time = now;
+      void source.hello.value;
+      learned.clear();
+      news.value = news.peek() + 1;
     }),
     effect(() => {
       const seen = source.seen.value;
