@@ -22,6 +22,12 @@ class Clock {
     if (this.time.peek() >= this.duration.peek()) this.playing.value = false;
   }
 
+  /** What is shown lasts so long [s]. */
+  lasts(duration: number): void {
+    this.duration.value = duration;
+    this.seek(this.time.peek());
+  }
+
   seek(time: number): void {
     this.time.value = Math.max(0, Math.min(this.duration.peek(), time));
   }

@@ -49,7 +49,6 @@ export class Player implements Source {
     for (let k = 0; k < count; k++) this.rows.add(data.subarray(k * layout.width, (k + 1) * layout.width));
     this.hello = signal(helloOf(recording));
     this.beat = clock.time;
-    clock.duration.value = Math.max(clock.duration.peek(), this.rows.last());
     const place = computed(() => lastBefore(recording.events, clock.time.value));
     this.event = computed(() => recording.events[place.value] ?? null);
     const movers = recording.movers ?? [];
@@ -63,6 +62,7 @@ export class Player implements Source {
     const whole = await unpacked(found.rows).arrayBuffer();
     const data = new Float32Array(whole, 0, whole.byteLength >> 2);
     const world = (await unpacked(found.world).json()) as World;
+    if (data.length < new Layout(found.columns).width || !world.robots?.length) throw new Error("nothing to play");
     return new Player(fromZero(found, data), world, data, clock);
   }
 
