@@ -14,10 +14,10 @@ export function Notice({ source }: { source: Source }) {
         (drives(source) ? (
           <button class="primary icon-text" data-testid="begin-again" onClick={() => void source.send({ do: "reset" })}>
             <Icon name="reset" />
-            Begin another run
+            Reset
           </button>
         ) : (
-          <p class="faint">Who drives can begin another run.</p>
+          <p class="faint">Who drives can reset it.</p>
         ))}
     </div>
   );
