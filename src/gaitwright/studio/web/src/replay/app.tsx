@@ -32,6 +32,7 @@ export function ReplayApp({ first }: { first: Player }) {
   const [shown, setShown] = useState(0);
   const [over, setOver] = useState(false);
   useEffect(() => listenToKeys(clock, first.recording.rate), [first]);
+  useEffect(() => clock.run(), []);
   const players = second ? [first, second] : [first];
   useLayoutEffect(() => clock.lasts(Math.max(...players.map(({ duration }) => duration))), [first, second]);
   const drop = async (event: DragEvent) => {

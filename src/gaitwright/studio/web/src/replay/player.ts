@@ -79,8 +79,7 @@ export class Player implements Source {
     return this.rows.row(Math.min(this.rows.count - 1, this.rows.from(this.now())));
   }
 
-  sample(robot: number, now: number, out: Float32Array): boolean {
-    this.clock.advance(now);
+  sample(robot: number, _now: number, out: Float32Array): boolean {
     if (robot !== 0 || !this.rows.count) return false;
     const time = this.now();
     const after = Math.min(this.rows.count - 1, this.rows.from(time));
