@@ -97,7 +97,7 @@ function Choice({ source }: { source: Source }) {
       <Field label="Skill">
         <select
           data-testid="curve-skill"
-          value={desk.skill.value}
+          value={skills.includes(desk.skill.value) ? desk.skill.value : ""}
           onChange={(event) => {
             const { value } = event.currentTarget;
             desk.choose(source, () => (desk.skill.value = value));

@@ -79,7 +79,8 @@ export function useOwnRun(source: Source): void {
   useEffect(
     () =>
       effect(() => {
-        void source.hello.value;
+        const skills = source.hello.value?.choices.skills ?? [];
+        if (!skills.includes(said.peek().skill)) said.value = { ...said.peek(), skill: "" };
         propose(null, null);
         stopped = false;
       }),
