@@ -2,8 +2,9 @@
 
 import { effect, signal } from "@preact/signals";
 import { floats } from "../bytes";
-import type { Seen, Vec2 } from "../protocol";
+import type { Seen, Vec2, World } from "../protocol";
 import type { Source } from "../source";
+import { sameGround } from "../view/same";
 
 /** Cells along a side of a tile. */
 export const SIDE = 64;
@@ -83,13 +84,34 @@ export const learned = new Learned();
 /** Changes whenever there is more to draw. */
 export const news = signal(0);
 
-/** Gathers what a source tells. A run begins with a `hello`; who comes later is then told what was seen before. */
+/** Gathers what a source tells. A run begins with a `hello`; who comes later is then told what was seen before.
+    A page that was cut off and comes back keeps what it has, unless it finds another run. */
 export function gather(source: Source): () => void {
+  let wasCut = false;
+  let time = -Infinity;
+  let world: World | null = null;
+  const anew = () => {
+    learned.clear();
+    news.value = news.peek() + 1;
+  };
   const stops = [
     effect(() => {
+      if (source.link.value === "lost") wasCut = true;
+    }),
+    effect(() => {
       void source.hello.value;
-      learned.clear();
-      news.value = news.peek() + 1;
+      if (!wasCut) anew();
+      wasCut = false;
+    }),
+    effect(() => {
+      const now = source.world.value;
+      if (now && !sameGround(now, world)) anew();
+      world = now;
+    }),
+    effect(() => {
+      const now = source.status.value?.time ?? time;
+      if (now < time) anew();
+      time = now;
     }),
     effect(() => {
       const seen = source.seen.value;
