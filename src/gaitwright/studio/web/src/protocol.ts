@@ -219,7 +219,7 @@ export type Command =
   | { do: "move"; thing: string | number; x: number; y: number; yaw?: number }
   | { do: "remove"; thing: string | number }
   | { do: "compose" | "record"; on: boolean }
-  | { do: "right"; skill: string; speed?: number; turn?: number; about?: string; name?: string }
+  | { do: "right"; skill: string; speed?: number; about?: string; name?: string }
   | { do: "forget"; lesson?: string }
   | { do: "keep"; lesson: string }
   /** `brief`: only the situation, and which rule fires */
