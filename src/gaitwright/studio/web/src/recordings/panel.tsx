@@ -11,18 +11,33 @@ import { addressOf, duration, formsOf, once, readName, size, stem } from "./name
 import { openReplay } from "./replay";
 import "./recordings.css";
 
+/** Where it was not told which there are, it is asked again [ms]. */
+const AGAIN = 3000;
+
 export function RecordingsPanel({ source }: { source: Source }) {
   const recording = source.status.value?.recording ?? false;
   const link = source.link.value;
   useEffect(() => {
-    if (link === "open" && !recording) void source.send({ do: "recordings" });
+    if (link !== "open" || recording) return;
+    let gone = false;
+    let timer = 0;
+    const look = async () => {
+      const { because } = await ask(source, { do: "recordings" });
+      if (because && !gone) timer = window.setTimeout(() => void look(), AGAIN);
+    };
+    void look();
+    return () => {
+      gone = true;
+      clearTimeout(timer);
+    };
   }, [source, recording, link]);
-  const kept = once(source.recordings.value?.names ?? []);
+  const known = source.recordings.value;
+  const kept = once(known?.names ?? []);
   return (
     <>
       <Recorder source={source} recording={recording} />
       <Section title="Kept" aside={kept.length ? `${kept.length}, the last first` : ""}>
-        {!kept.length && <p class="faint about">There is none yet.</p>}
+        {!kept.length && <p class="faint about">{known ? "There is none yet." : "looking …"}</p>}
         <ul class="kept" data-testid="recordings">
           {kept.map((one) => (
             <Kept key={one.name} {...one} made={source.hello.value?.choices.forms} />
