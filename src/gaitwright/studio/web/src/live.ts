@@ -22,6 +22,10 @@ const NO_ROOM = "the studio has no room for another page: close one; this page t
 const REFUSED: Record<number, string> = { 403: NO_ENTRY, 404: NO_ROOM };
 /** What nobody may have without the token, whether it is there or not. */
 const PROBE = "recordings/none.npz";
+/** The studio gives a robot's process up that has said nothing for so long, where a reset is asked for [ms]. */
+const SILENT = 30_000;
+const SAYS_NOTHING =
+  "the robot has said nothing for half a minute: what it does for the first time can take so long; else a reset begins another run";
 /** Panels ask these by themselves, and show what is refused: the bar below has nothing to do with it. */
 const LOOKS = new Set<Command["do"]>(["why", "curve", "recordings"]);
 const RETRY = [500, 1000, 2000, 4000];
@@ -43,6 +47,7 @@ export class Live implements Source {
   readonly role = signal<Role>({ say: "role", role: "watcher", watchers: 0, has_driver: false });
   readonly lost = signal("");
   readonly closed = signal("");
+  readonly silent = signal("");
   readonly world = signal<World | null>(null);
   readonly boxes = signal<Box[]>([]);
   readonly status = signal<Status | null>(null);
@@ -77,6 +82,7 @@ export class Live implements Source {
   private waiting = new Map<number, (answer: Answer) => void>();
   private nextId = 1;
   private failures = 0;
+  private waitsLong = 0;
 
   constructor(private readonly address: string) {
     this.open();
@@ -145,9 +151,12 @@ export class Live implements Source {
       this.failures = 0;
       this.closed.value = this.lost.value = "";
       this.link.value = "open";
+      this.isHeard();
     };
     socket.onclose = ({ reason }) => {
       this.link.value = "lost";
+      clearTimeout(this.waitsLong);
+      this.silent.value = "";
       this.role.value = { ...this.role.peek(), role: "watcher" };
       if (reason) this.lost.value = reason;
       else if (this.failures > 0) void this.ask();
@@ -164,6 +173,15 @@ export class Live implements Source {
     address.search = new URL(this.address).search;
     const status = await fetch(address, { cache: "no-store" }).then((answer) => answer.status, () => 0);
     if (this.link.peek() !== "open") this.lost.value = REFUSED[status] ?? NO_STUDIO;
+  }
+
+  /** The robot said something; what it says next should not take long. */
+  private isHeard(): void {
+    this.silent.value = "";
+    clearTimeout(this.waitsLong);
+    this.waitsLong = window.setTimeout(() => {
+      if (this.status.peek() && !this.closed.peek()) this.silent.value = SAYS_NOTHING;
+    }, SILENT);
   }
 
   private show(data: ArrayBuffer): void {
@@ -204,6 +222,7 @@ export class Live implements Source {
   }
 
   private know(name: string, what: unknown): void {
+    if (name === "status") this.isHeard();
     const known = (this.told as Record<string, unknown>)[name] as Signal<unknown> | undefined;
     if (known) known.value = what;
   }

@@ -38,6 +38,7 @@ let status = 0;
 beforeEach(() => {
   vi.useFakeTimers();
   vi.stubGlobal("WebSocket", Socket);
+  vi.stubGlobal("window", globalThis);
   vi.stubGlobal("location", { href: "http://here/?token=t" });
   vi.stubGlobal("fetch", () => (status ? Promise.resolve({ status }) : Promise.reject(new Error("nobody"))));
 });
@@ -81,4 +82,19 @@ test("a studio that says why it closes is believed", () => {
   const live = new Live(ADDRESS);
   Socket.last.onclose({ reason: "64 pages are open" });
   expect(live.lost.value).toBe("64 pages are open");
+});
+
+test("a robot that says nothing for long is said to be silent, until it is heard again", () => {
+  const live = new Live(ADDRESS);
+  Socket.last.onopen();
+  Socket.last.hear(HELLO);
+  vi.advanceTimersByTime(60_000);
+  expect(live.silent.value).toBe(""); // it has not begun yet
+  Socket.last.hear({ say: "status", time: 1 });
+  vi.advanceTimersByTime(29_000);
+  expect(live.silent.value).toBe("");
+  vi.advanceTimersByTime(2_000);
+  expect(live.silent.value).toMatch(/said nothing/);
+  Socket.last.hear({ say: "status", time: 1 });
+  expect(live.silent.value).toBe("");
 });

@@ -22,6 +22,7 @@ export class Player implements Source {
   readonly role = signal<Role>({ say: "role", role: "watcher", watchers: 0, has_driver: false });
   readonly lost = signal("");
   readonly closed = signal("");
+  readonly silent = signal("");
   readonly moved: ReadonlySignal<Moved | null>;
   readonly scan = nothing;
   readonly seen = nothing;

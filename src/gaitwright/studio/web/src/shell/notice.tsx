@@ -1,14 +1,14 @@
-// Over the views: that there is no connection, or that the run is over, and what to do about it.
+// Over the views: that there is no connection, that the run is over or says nothing, and what to do about it.
 
 import { drives, type Source } from "../source";
 import { Icon } from "../ui/icons";
 
 export function Notice({ source }: { source: Source }) {
   const lost = source.lost.value;
-  const over = source.closed.value || source.status.value?.over || "";
+  const over = source.closed.value || source.silent.value || source.status.value?.over || "";
   if (!lost && !over) return null;
   return (
-    <div class={`notice ${lost || source.closed.value ? "bad" : ""}`} role="alert" data-testid="notice">
+    <div class={`notice ${lost || source.closed.value || source.silent.value ? "bad" : ""}`} role="alert" data-testid="notice">
       <p>{lost || over}</p>
       {!lost &&
         (drives(source) ? (
