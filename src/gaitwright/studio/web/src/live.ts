@@ -10,14 +10,22 @@ import type {
 } from "./protocol";
 import { Smooth } from "./smooth";
 import type { Link, Source } from "./source";
-import { sameGround } from "./view/same";
 
 const VERSION = 1;
 const ANSWER_WITHIN = 15_000;
 /** What is seen in physics first may take long where it is done for the first time. */
 const SEEN_WITHIN = 120_000;
 const NO_STUDIO = "no studio answers here: where it was closed, start it again; this page looks for it";
-const NO_ENTRY = "this is not the whole address of the studio that is open here: open the one that it printed";
+const NO_ENTRY = "the studio that is open here has another address than this page: open the one that it printed";
+const NO_ROOM = "the studio has no room for another page: close one; this page tries again";
+/** By how a request is answered that comes with the page's token. */
+const REFUSED: Record<number, string> = { 403: NO_ENTRY, 404: NO_ROOM };
+/** What nobody may have without the token, whether it is there or not. */
+const PROBE = "recordings/none.npz";
+/** The studio gives a robot's process up that has said nothing for so long, where a reset is asked for [ms]. */
+const SILENT = 30_000;
+const SAYS_NOTHING =
+  "the robot has said nothing for half a minute: what it does for the first time can take so long; else a reset begins another run";
 /** Panels ask these by themselves, and show what is refused: the bar below has nothing to do with it. */
 const LOOKS = new Set<Command["do"]>(["why", "curve", "recordings"]);
 const RETRY = [500, 1000, 2000, 4000];
@@ -39,6 +47,7 @@ export class Live implements Source {
   readonly role = signal<Role>({ say: "role", role: "watcher", watchers: 0, has_driver: false });
   readonly lost = signal("");
   readonly closed = signal("");
+  readonly silent = signal("");
   readonly world = signal<World | null>(null);
   readonly boxes = signal<Box[]>([]);
   readonly status = signal<Status | null>(null);
@@ -73,6 +82,7 @@ export class Live implements Source {
   private waiting = new Map<number, (answer: Answer) => void>();
   private nextId = 1;
   private failures = 0;
+  private waitsLong = 0;
 
   constructor(private readonly address: string) {
     this.open();
@@ -141,11 +151,15 @@ export class Live implements Source {
       this.failures = 0;
       this.closed.value = this.lost.value = "";
       this.link.value = "open";
+      this.isHeard();
     };
-    socket.onclose = () => {
+    socket.onclose = ({ reason }) => {
       this.link.value = "lost";
+      clearTimeout(this.waitsLong);
+      this.silent.value = "";
       this.role.value = { ...this.role.peek(), role: "watcher" };
-      if (this.failures > 0) void this.ask();
+      if (reason) this.lost.value = reason;
+      else if (this.failures > 0) void this.ask();
       const left = [...this.waiting.values()];
       this.waiting.clear();
       for (const answer of left) answer({ done: false, because: "the connection was lost" });
@@ -153,10 +167,21 @@ export class Live implements Source {
     };
   }
 
-  /** Finds out why there is no connection: a studio that answers does not know this page's token. */
+  /** Finds out why there is no connection: a browser does not say how a socket was refused. */
   private async ask(): Promise<void> {
-    const answers = await fetch(location.pathname, { cache: "no-store" }).then((answer) => answer.ok, () => false);
-    if (this.link.peek() !== "open") this.lost.value = answers ? NO_ENTRY : NO_STUDIO;
+    const address = new URL(PROBE, location.href);
+    address.search = new URL(this.address).search;
+    const status = await fetch(address, { cache: "no-store" }).then((answer) => answer.status, () => 0);
+    if (this.link.peek() !== "open") this.lost.value = REFUSED[status] ?? NO_STUDIO;
+  }
+
+  /** The robot said something; what it says next should not take long. */
+  private isHeard(): void {
+    this.silent.value = "";
+    clearTimeout(this.waitsLong);
+    this.waitsLong = window.setTimeout(() => {
+      if (this.status.peek() && !this.closed.peek()) this.silent.value = SAYS_NOTHING;
+    }, SILENT);
   }
 
   private show(data: ArrayBuffer): void {
@@ -175,9 +200,7 @@ export class Live implements Source {
   private hear(message: FromServer): void {
     switch (message.say) {
       case "hello":
-        this.arrange(new Layout(message.columns));
-        this.hello.value = message;
-        this.closed.value = ""; // where a run had ended, another one begins
+        this.begin(message);
         if (message.version !== VERSION) this.closed.value = "the studio is newer than this page: load it again";
         break;
       case "world":
@@ -199,30 +222,31 @@ export class Live implements Source {
   }
 
   private know(name: string, what: unknown): void {
+    if (name === "status") this.isHeard();
     const known = (this.told as Record<string, unknown>)[name] as Signal<unknown> | undefined;
     if (known) known.value = what;
   }
 
-  /** Another world; where only its boxes are others, all else is kept. */
+  /** Another run, or this page comes to one: what is known of the one before holds no longer. */
+  private begin(hello: Hello): void {
+    const layout = new Layout(hello.columns);
+    this.smooth = new Smooth(layout, layout.at("time"));
+    this.histories = [];
+    const isOther = JSON.stringify(layout.columns) !== JSON.stringify(this.layout.peek()?.columns);
+    batch(() => {
+      if (isOther) this.layout.value = layout;
+      this.moved.value = this.scan.value = this.seen.value = this.tried.value = null;
+      this.closed.value = ""; // where a run had ended, another one begins
+      this.hello.value = hello;
+    });
+  }
+
+  /** The world of the run that began. */
   private settle(world: World): void {
-    if (!sameGround(world, this.world.peek())) {
-      this.smooth?.clear();
-      this.histories = [];
-      this.seen.value = this.scan.value = null;
-    }
-    this.moved.value = null;
     batch(() => {
       this.world.value = world;
       this.boxes.value = world.boxes;
     });
-  }
-
-  /** Columns as told in `hello`, which comes again after a reconnection or another role. */
-  private arrange(layout: Layout): void {
-    if (JSON.stringify(layout.columns) === JSON.stringify(this.layout.value?.columns)) return;
-    this.smooth = new Smooth(layout, layout.at("time"));
-    this.histories = [];
-    this.layout.value = layout;
   }
 
   private answered(message: Extract<FromServer, { say: "done" | "refused" }>): void {

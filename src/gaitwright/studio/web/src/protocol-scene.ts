@@ -42,7 +42,6 @@ export interface Box {
   ly: number;
   lz: number;
   yaw: number;
-  fixed: boolean;
 }
 
 export interface Sphere {
@@ -66,14 +65,5 @@ export interface World {
   goal: Vec2 | null;
 }
 
-export interface Thing {
-  id: string | number;
-  x: number;
-  y: number;
-  z: number;
-  yaw: number;
-  /** Sizes, where it is something that moves by itself. */
-  lx?: number;
-  ly?: number;
-  lz?: number;
-}
+/** Something that moves by itself, by the box around it; its numbers are not those of boxes. */
+export type Thing = Box;

@@ -17,7 +17,8 @@ export interface Choices {
   skills: string[];
   drivers: string[];
   modes: Mode[];
-  cycles?: string[];
+  /** Forms that recordings can be fetched in. */
+  forms?: string[];
 }
 
 export interface Hello {
@@ -48,7 +49,7 @@ export interface Status {
   pace: number;
   real_time: number;
   mode: Mode;
-  /** A motion is being composed, or played; its words and seconds, and how much of it was played [s]. */
+  /** A motion is being composed, or played; its moves and seconds, and how much of it was played [s]. */
   composing?: boolean;
   playing?: boolean;
   composed?: number;
@@ -129,7 +130,6 @@ export interface Seen {
   /** base64 of float32, rows along y; NaN: unknown */
   heights: string;
   obstacles: Vec2[][];
-  roads?: Vec2[][];
   /** x0, y0, x1, y1 */
   walls?: [number, number, number, number][];
   /** ways that it walked */
@@ -166,6 +166,8 @@ export interface Curves {
   pending: boolean;
   /** What was learned at obstacles, in the order in which it is tried. */
   operators: Operator[];
+  /** Files of leg cycles that could not be read, a sentence for each. */
+  faults?: string[];
 }
 
 export interface Operator {
@@ -183,7 +185,7 @@ export type Proposed = { say: "tried" } & (({ proposed: true } & Tried) | { prop
 
 export interface Recordings {
   say: "recordings";
-  names: { name: string; bytes: number; seconds?: number }[];
+  names: { name: string; bytes: number }[];
 }
 
 export interface Done {
@@ -217,14 +219,16 @@ export type Command =
   | { do: "move"; thing: string | number; x: number; y: number; yaw?: number }
   | { do: "remove"; thing: string | number }
   | { do: "compose" | "record"; on: boolean }
-  | { do: "right"; skill: string; speed?: number; turn?: number; about?: string; name?: string }
+  | { do: "right"; skill: string; speed?: number; about?: string; name?: string }
   | { do: "forget"; lesson?: string }
-  | { do: "why"; rule?: string }
+  | { do: "keep"; lesson: string }
+  /** `brief`: only the situation, and which rule fires */
+  | { do: "why"; rule?: string; brief?: boolean }
   | { do: "order"; rule: string; before: string }
   | { do: "curve"; kind: CurveKind; skill?: string; leg: number }
   | { do: "edit"; kind: CurveKind; skill: string; leg: number; points: number[][]; mirror: boolean; obstacle?: boolean }
   | {
-      do: "stand" | "play" | "pause" | "resume" | "abort" | "take" | "release" | "keep" | "back" | "ok" | "undo" | "redo"
+      do: "stand" | "play" | "pause" | "resume" | "abort" | "take" | "release" | "back" | "ok" | "undo" | "redo"
         | "save" | "recordings";
     };
 

@@ -18,6 +18,8 @@ export interface Source {
   readonly lost: ReadonlySignal<string>;
   /** Why the studio has ended; "" while it has not. */
   readonly closed: ReadonlySignal<string>;
+  /** That nothing comes from the robot though there is a connection; "" while something does. */
+  readonly silent: ReadonlySignal<string>;
   readonly world: ReadonlySignal<World | null>;
   /** The boxes of the world as they are now. */
   readonly boxes: ReadonlySignal<Box[]>;

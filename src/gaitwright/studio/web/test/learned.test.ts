@@ -1,6 +1,8 @@
+import { signal } from "@preact/signals";
 import { expect, test } from "vitest";
-import { Learned } from "../src/map/learned";
+import { gather, Learned, learned } from "../src/map/learned";
 import type { Seen } from "../src/protocol";
+import type { Source } from "../src/source";
 
 function seen(x: number, y: number, heights: number[], columns: number): Seen {
   const bytes = new Uint8Array(new Float32Array(heights).buffer);
@@ -41,4 +43,31 @@ test("a way is kept as places that lie apart", () => {
   expect(map.trail.map(([x]) => x)).toEqual([0, 0.1, 0.2]);
   map.clear();
   expect([map.trail.length, map.known, map.tiles.size]).toEqual([0, 0, 0]);
+});
+
+test("a run that begins has learned nothing; a page that was cut off keeps what it has", () => {
+  const told = {
+    link: signal("open"), hello: signal({}), world: signal(null), status: signal({ time: 5 }), layout: signal(null),
+    seen: signal<Seen | null>(null), latest: () => null,
+  };
+  const stop = gather(told as unknown as Source);
+  const begin = (time: number) => {
+    told.hello.value = {};
+    told.seen.value = null;
+    told.status.value = { time };
+  };
+  const see = () => (told.seen.value = seen(0, 0, [1, 2], 2));
+  see();
+  expect(learned.known).toBe(2);
+  told.link.value = "lost";
+  told.link.value = "open";
+  begin(6);
+  expect(learned.known).toBe(2);
+  begin(7); // with the connection there all the time, another run
+  expect(learned.known).toBe(0);
+  see();
+  told.link.value = "lost";
+  begin(0.1); // another run that began meanwhile
+  expect(learned.known).toBe(0);
+  stop();
 });

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { addressOf, duration, once, readName, size, stem } from "../src/recordings/names";
+import { addressOf, duration, formsOf, once, readName, size, stem } from "../src/recordings/names";
 
 test("a recording's name tells when and of what", () => {
   expect(readName("2026-01-02_03-04-05_go2_2.npz")).toEqual({
@@ -22,4 +22,11 @@ test("several files of one recording are one", () => {
   const files = ["b.html", "b.npz", "a.npz", "c.mcap"].map((name) => ({ name }));
   expect(once(files).map(({ name }) => name)).toEqual(["b.npz", "a.npz", "c.mcap"]);
   expect(stem("2026-01-02_03-04-05_go2.npz")).toBe("2026-01-02_03-04-05_go2");
+});
+
+test("a recording is offered in the forms that the studio can make", () => {
+  const endings = (name: string, made?: string[]) => formsOf(name, made).map(({ ending }) => ending);
+  expect(endings("a.npz")).toEqual(["npz", "html", "mcap"]);
+  expect(endings("a.npz", ["npz", "html"])).toEqual(["npz", "html"]);
+  expect(endings("a.mcap", ["npz", "html"])).toEqual(["mcap"]);
 });

@@ -6,7 +6,7 @@ import { isBetween } from "../src/view/see-through";
 const eye = new Vector3(-2, 0, 0.5);
 const robot = new Vector3(0, 0, 0.3);
 const wall = (x: number, more: Partial<Box> = {}): Box => ({
-  id: 0, x, y: 0, z: 0.5, lx: 0.2, ly: 1, lz: 1, yaw: 0, fixed: false, ...more,
+  id: 0, x, y: 0, z: 0.5, lx: 0.2, ly: 1, lz: 1, yaw: 0, ...more,
 });
 
 test("a box before the robot is between, one behind it or beside the way is not", () => {

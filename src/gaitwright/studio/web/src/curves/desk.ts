@@ -1,7 +1,7 @@
 // The curve on the desk: what is chosen, its points as they are being moved, what became of the last edit.
 
 import { computed, signal } from "@preact/signals";
-import type { Curve, CurveKind, Edited, Preview } from "../protocol";
+import type { Curve, CurveKind, Edited, Preview, Robot } from "../protocol";
 import type { Source } from "../source";
 import { ask } from "../ui/ask";
 import { remembered } from "../ui/remembered";
@@ -73,6 +73,19 @@ export function hold(chart: string, point: number): void {
 function pin(): void {
   const now = curve.peek();
   if (now) skill.value = now.skill;
+}
+
+let robotName = "";
+
+/** What was chosen, as far as a robot has it; points that do not count yet are of no other robot. */
+export function fit(robot: Robot, skills: string[]): void {
+  if (leg.peek() >= robot.legs.length) leg.value = 0;
+  if (!skills.includes(skill.peek())) skill.value = "";
+  if (robotName && robot.name !== robotName) {
+    draft.value = curve.value = null;
+    forget();
+  }
+  robotName = robot.name;
 }
 
 /** Another curve is chosen. */

@@ -29,6 +29,11 @@ export function CurvesPanel({ source }: { source: Source }) {
     <div class="curves" data-testid="curves">
       <Choice source={source} />
       <Tools source={source} disabled={!driving} />
+      {source.curve.value?.faults?.map((sentence) => (
+        <p class="warning" data-testid="curve-fault" key={sentence}>
+          {sentence}
+        </p>
+      ))}
       {curve?.kind === "cycle" && <Ahead source={source} disabled={!driving} />}
       {!curve && <p class={desk.missing.value ? "refusal nothing" : "faint nothing"} data-testid="curve-missing">
         {desk.missing.value || "looking …"}
@@ -46,6 +51,11 @@ export function CurvesPanel({ source }: { source: Source }) {
 function useLooking(source: Source): void {
   const edits = source.curve.value?.edits;
   const link = source.link.value;
+  const robot = source.world.value?.robots[0];
+  const skills = source.hello.value?.choices.skills;
+  useEffect(() => {
+    if (robot && skills) desk.fit(robot, skills);
+  }, [robot, skills]);
   useEffect(() => {
     if (link === "open") void desk.look(source);
     const timer = setInterval(() => {
@@ -53,7 +63,7 @@ function useLooking(source: Source): void {
       if (link === "open" && !still) void desk.look(source);
     }, EVERY);
     return () => clearInterval(timer);
-  }, [source, link, edits, source.curve.value?.pending]);
+  }, [source, link, edits, source.curve.value?.pending, robot]);
 }
 
 /** Ctrl-Z and Ctrl-Y. */
@@ -87,7 +97,7 @@ function Choice({ source }: { source: Source }) {
       <Field label="Skill">
         <select
           data-testid="curve-skill"
-          value={desk.skill.value}
+          value={skills.includes(desk.skill.value) ? desk.skill.value : ""}
           onChange={(event) => {
             const { value } = event.currentTarget;
             desk.choose(source, () => (desk.skill.value = value));

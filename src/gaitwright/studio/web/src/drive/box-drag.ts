@@ -2,7 +2,7 @@
 
 import { Vector3 } from "three";
 import type { Box } from "../protocol";
-import type { Source } from "../source";
+import { drives, type Source } from "../source";
 import type { Engine } from "../view/engine";
 import type { Rig } from "../view/rig";
 import type { Drag } from "./hand";
@@ -55,26 +55,26 @@ export class BoxDrag implements Drag {
     const { x, y, yaw } = this.now;
     if (x !== this.start.x || y !== this.start.y || yaw !== this.start.yaw) {
       void this.source.send({ do: "move", thing: this.start.id, x, y, yaw }).then((answer) => {
-        if (!answer.done) this.draw(this.allowed());
+        if (!answer.done) this.draw(this.allowed);
         this.away();
       });
     } else this.away();
     this.label.remove();
   }
 
+  /** Back to where it was; who lost the wheel leaves it where it is. */
   cancel(): void {
     clearTimeout(this.later);
+    const driving = drives(this.source);
     const { id, x, y, yaw } = this.start;
-    this.source.tell({ do: "move", thing: id, x, y, yaw });
-    this.draw(this.start);
+    if (this.told && driving) this.source.tell({ do: "move", thing: id, x, y, yaw });
+    this.draw(driving ? this.start : this.allowed);
     this.away();
   }
 
   /** The last place that the server had it at. */
-  private allowed() {
-    const same = ({ id, lx }: { id: Box["id"]; lx?: number }) => id === this.start.id && lx === undefined;
-    const moved = this.source.moved.peek()?.things.find(same);
-    return moved ?? this.source.boxes.peek().find(({ id }) => id === this.start.id) ?? this.start;
+  private get allowed(): Box {
+    return this.source.boxes.peek().find(({ id }) => id === this.start.id) ?? this.start;
   }
 
   private away(): void {
@@ -82,8 +82,8 @@ export class BoxDrag implements Drag {
     this.engine.scenery?.boxes.hold(null);
   }
 
-  private draw({ x, y, z, yaw }: { x: number; y: number; z: number; yaw: number }): void {
-    this.engine.scenery?.boxes.move([{ id: this.start.id, x, y, z, yaw }]);
+  private draw({ x, y, z, yaw }: Box): void {
+    this.engine.scenery?.boxes.put(this.start.id, { x, y, z, yaw });
   }
 
   private changed(): void {

@@ -1,7 +1,8 @@
 // The mouse on the views of a live studio: go, push, move and place boxes.
 
 import { effect } from "@preact/signals";
-import type { Source } from "../source";
+import { drives, type Source } from "../source";
+import { isMoving } from "../view/boxes";
 import type { Engine } from "../view/engine";
 import { taken } from "../view/camera-hand";
 import type { Rig } from "../view/rig";
@@ -33,16 +34,15 @@ function hold(source: Source, engine: Engine, place: HTMLElement, rig: Rig): () 
   let drag: Drag | null = null;
   let from: { x: number; y: number; picked: Picked | null } | null = null;
   const ghost = new PlacingGhost(engine);
-  const drives = () => source.role.peek().role === "driver";
   const far = (event: PointerEvent) => !from || Math.hypot(event.clientX - from.x, event.clientY - from.y) > CLICK;
 
   const down = (event: PointerEvent) => {
-    if (event.button !== 0 || event.target !== place || !drives()) return;
+    if (event.button !== 0 || event.target !== place || !drives(source)) return;
     const picked = pick(engine, aim(event, place, rig), rig);
     from = { x: event.clientX, y: event.clientY, picked };
     if (placing.peek()) return;
     if (picked?.kind === "robot" && picked.robot === engine.watched) drag = new PushDrag(source, engine, place, rig);
-    if (picked?.kind === "box" && !picked.box.fixed) drag = new BoxDrag(source, engine, place, rig, picked);
+    if (picked?.kind === "box" && !isMoving(picked.box.id)) drag = new BoxDrag(source, engine, place, rig, picked);
     if (!drag) return;
     taken.add(event);
     place.setPointerCapture(event.pointerId);
@@ -53,9 +53,9 @@ function hold(source: Source, engine: Engine, place: HTMLElement, rig: Rig): () 
     } else if (event.buttons === 0) hover(event);
   };
   const hover = (event: PointerEvent) => {
-    const over = event.target === place && drives() ? pick(engine, aim(event, place, rig), rig) : null;
+    const over = event.target === place && drives(source) ? pick(engine, aim(event, place, rig), rig) : null;
     place.classList.toggle("over-robot", over?.kind === "robot" && !placing.peek());
-    place.classList.toggle("over-box", over?.kind === "box" && !over.box.fixed && !placing.peek());
+    place.classList.toggle("over-box", over?.kind === "box" && !isMoving(over.box.id) && !placing.peek());
     place.classList.toggle("over-ground", over?.kind === "ground" || placing.peek());
     if (placing.peek() && over) ghost.show(over.at);
     else ghost.hide();
@@ -85,18 +85,24 @@ function hold(source: Source, engine: Engine, place: HTMLElement, rig: Rig): () 
     event.preventDefault();
     drag.wheel(event);
   };
-  const stop = (event: KeyboardEvent) => {
-    if (event.key !== "Escape") return;
-    drag?.cancel();
-    drag = null;
-    placing.value = false;
-    ghost.hide();
-  };
+  // what was begun is not done; letting go afterwards is no click
   const lost = () => {
     drag?.cancel();
     drag = null;
     from = null;
   };
+  const stop = (event: KeyboardEvent) => {
+    if (event.key !== "Escape") return;
+    lost();
+    placing.value = false;
+    ghost.hide();
+  };
+  const watching = effect(() => {
+    if (drives(source)) return;
+    lost();
+    placing.value = false;
+    ghost.hide();
+  });
   const leave = () => ghost.hide();
   const light = effect(() => {
     const id = chosen.value;
@@ -118,6 +124,7 @@ function hold(source: Source, engine: Engine, place: HTMLElement, rig: Rig): () 
     place.removeEventListener("pointerleave", leave);
     place.removeEventListener("wheel", wheel);
     removeEventListener("keydown", stop);
+    watching();
     light();
     ghost.dispose();
   };

@@ -1,6 +1,7 @@
 // Held keys: W S forward and back, A D turn, Q E sideways; space stands.
 
-import type { Source } from "../source";
+import { effect } from "@preact/signals";
+import { drives, type Source } from "../source";
 import type { Steering, Velocity } from "./steering";
 
 const KEYS: Record<string, Partial<Velocity>> = {
@@ -43,6 +44,10 @@ export function listenToKeys(steering: Steering, source: Source): () => void {
   const hidden = () => {
     if (document.hidden) lose();
   };
+  // keys that are still down when the wheel comes back do not move the robot
+  const watching = effect(() => {
+    if (!drives(source)) lose();
+  });
   // a list that was used gives the keys back
   const used = (event: Event) => {
     if (event.target instanceof HTMLSelectElement) event.target.blur();
@@ -53,6 +58,7 @@ export function listenToKeys(steering: Steering, source: Source): () => void {
   addEventListener("blur", lose);
   document.addEventListener("visibilitychange", hidden);
   return () => {
+    watching();
     document.removeEventListener("change", used);
     removeEventListener("keydown", press);
     removeEventListener("keyup", lift);

@@ -49,7 +49,7 @@ function Length({ status }: { status: Status }) {
   if (!composing && !composed) return null;
   return (
     <span data-testid="motion-length">
-      {composed} {composed === 1 ? "word" : "words"} · {number(composed_seconds, 1)} s
+      {composed} {composed === 1 ? "move" : "moves"} · {number(composed_seconds, 1)} s
     </span>
   );
 }

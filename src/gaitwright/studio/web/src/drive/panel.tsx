@@ -5,6 +5,7 @@ import { drives, type Source } from "../source";
 import { skillColour } from "../ui/colours";
 import { number, Section, Slider, Switch } from "../ui/controls";
 import { remembered } from "../ui/remembered";
+import { DRIVERS, MODES } from "../ui/words";
 import { listenToKeys } from "./keys";
 import { Motion } from "./motion";
 import { listenToPad, padName } from "./pad";
@@ -74,7 +75,30 @@ export function DrivePanel({ source }: { source: Source }) {
           <li>drag elsewhere: turn the view</li>
         </ul>
       </Section>
+      <Words source={source} />
     </>
+  );
+}
+
+/** What the names in the bar above mean. */
+function Words({ source }: { source: Source }) {
+  const choices = source.hello.value?.choices;
+  if (!choices) return null;
+  return (
+    <>
+      <Meanings title="Modes" names={choices.modes} words={MODES} />
+      <Meanings title="Who computes the torques" names={choices.drivers} words={DRIVERS} />
+    </>
+  );
+}
+
+function Meanings({ title, names, words }: { title: string; names: string[]; words: Record<string, string> }) {
+  return (
+    <Section title={title}>
+      <dl class="words">
+        {names.flatMap((name) => [<dt key={name}>{name}</dt>, <dd key={`${name} is`}>{words[name]}</dd>])}
+      </dl>
+    </Section>
   );
 }
 

@@ -1,7 +1,7 @@
 // A velocity that is held by keys, a stick or a game-pad: sent twenty times a second, zero when it is let go.
 
-import { signal } from "@preact/signals";
-import type { Source } from "../source";
+import { effect, signal } from "@preact/signals";
+import { drives, type Source } from "../source";
 import { remembered } from "../ui/remembered";
 
 export interface Velocity {
@@ -28,10 +28,16 @@ export class Steering {
   private readonly hands = new Map<Hand, Velocity>();
   private timer = 0;
 
-  constructor(private readonly source: Source) {}
+  constructor(private readonly source: Source) {
+    // who loses the wheel has let go: what is held from then on is nobody's business
+    effect(() => {
+      if (!drives(source)) this.release();
+    });
+  }
 
   /** Shares of full deflection, −1 … 1; `null` lets go. */
   hold(hand: Hand, share: Velocity | null): void {
+    if (share && !drives(this.source)) return;
     const before = this.hands.size;
     if (share) this.hands.set(hand, share);
     else this.hands.delete(hand);
@@ -54,7 +60,7 @@ export class Steering {
   private letGo(): void {
     clearInterval(this.timer);
     this.timer = 0;
-    this.source.tell({ do: "steer", forward: 0, left: 0, turn: 0 });
+    if (drives(this.source)) this.source.tell({ do: "steer", forward: 0, left: 0, turn: 0 });
   }
 
   private sum(): Velocity {

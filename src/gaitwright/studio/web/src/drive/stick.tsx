@@ -1,6 +1,6 @@
 // A stick to drag: up is forward, sideways turns; with shift, sideways goes sideways.
 
-import { useRef } from "preact/hooks";
+import { useEffect, useRef } from "preact/hooks";
 import { held, type Steering } from "./steering";
 
 const SIZE = 92;
@@ -24,6 +24,11 @@ export function Stick({ steering, disabled }: { steering: Steering; disabled: bo
     down.current = false;
     steering.hold("stick", null);
   };
+  // it may be gone, or be nobody's any more, while it is dragged
+  useEffect(() => letGo, []);
+  useEffect(() => {
+    if (disabled) letGo();
+  }, [disabled]);
   return (
     <svg
       class={`stick ${disabled ? "off" : ""}`}

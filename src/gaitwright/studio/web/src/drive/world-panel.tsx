@@ -1,4 +1,4 @@
-// The world: which robot where, boxes, and starting over.
+// The world: reset with which robot where, boxes.
 
 import { useState } from "preact/hooks";
 import { drives, type Source } from "../source";
@@ -33,7 +33,7 @@ function Setup({ source, watching }: { source: Source; watching: boolean }) {
   };
   const about = choices.scenes?.find(({ name }) => name === now.scene.split(":")[0])?.about;
   return (
-    <Section title="Start over with">
+    <Section title="Reset with">
       <Field label="Robot">
         <Name id="reset-robot" choices={choices.robots} value={now.robot} choose={setRobot} disabled={watching} />
       </Field>
@@ -79,7 +79,7 @@ function Setup({ source, watching }: { source: Source; watching: boolean }) {
           void source.send({ do: "reset", ...now });
         }}
       >
-        Start over
+        Reset
       </button>
     </Section>
   );
@@ -138,7 +138,7 @@ function ChosenBox({ source, watching }: { source: Source; watching: boolean }) 
           <button
             class="wide"
             data-testid="remove"
-            disabled={watching || box.fixed}
+            disabled={watching}
             onClick={() => {
               chosen.value = null;
               void source.send({ do: "remove", thing: box.id });

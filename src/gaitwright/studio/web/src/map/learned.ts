@@ -84,31 +84,33 @@ export const learned = new Learned();
 /** Changes whenever there is more to draw. */
 export const news = signal(0);
 
-/** Gathers what a source tells, from now on. */
+/** Gathers what a source tells. A run begins with a `hello`; who comes later is then told what was seen before.
+    A page that was cut off and comes back keeps what it has, unless it finds another run. */
 export function gather(source: Source): () => void {
-  let world: World | null = null;
-  let before: Seen | null = null;
+  let wasCut = false;
   let time = -Infinity;
+  let world: World | null = null;
   const anew = () => {
     learned.clear();
     news.value = news.peek() + 1;
   };
   const stops = [
     effect(() => {
+      if (source.link.value === "lost") wasCut = true;
+    }),
+    effect(() => {
+      void source.hello.value;
+      if (!wasCut) anew();
+      wasCut = false;
+    }),
+    effect(() => {
       const now = source.world.value;
-      before = source.seen.peek();
-      if (!now || sameGround(now, world)) return;
+      if (now && !sameGround(now, world)) anew();
       world = now;
-      anew();
     }),
     effect(() => {
       const now = source.status.value?.time ?? time;
-      if (now < time) {
-        // another run on the same ground: of what was seen only that counts which was told since
-        anew();
-        const seen = source.seen.peek();
-        if (seen && seen !== before) learned.add(seen);
-      }
+      if (now < time) anew();
       time = now;
     }),
     effect(() => {

@@ -15,7 +15,7 @@ import "./map.css";
 const EVERY = 66;
 const truth = new Truth();
 
-/** Gathers the map from the page's start on, whichever panel is open. */
+/** Gathers the map, whichever panel is open. */
 export function useMap(source: Source): void {
   useEffect(() => gather(source), [source]);
 }

@@ -64,15 +64,9 @@ export class Truth {
   outlines(boxes: readonly Box[], moved: Moved | null): Outline[] {
     const world = this.world;
     if (!world) return [];
-    const at = new Map((moved?.things ?? []).map((thing) => [thing.id, thing]));
-    const outlined = boxes.map((box) => {
-      const now = at.get(box.id);
-      at.delete(box.id);
-      return { points: corners({ ...box, ...now }), loose: !box.fixed };
-    });
-    const things = [...at.values()].map(({ lx = 0.3, ly = 0.3, ...thing }) => ({ points: corners({ lx, ly, ...thing }), loose: true }));
+    const loose = [...boxes, ...(moved?.things ?? [])].map((box) => ({ points: corners(box), loose: true }));
     const spheres = world.spheres.map(({ x, y, radius }) => ({ points: circle(x, y, radius), loose: false }));
-    return [...outlined, ...things, ...spheres, ...this.hulls.map((points) => ({ points, loose: false }))];
+    return [...loose, ...spheres, ...this.hulls.map((points) => ({ points, loose: false }))];
   }
 }
 

@@ -19,12 +19,24 @@ export function readName(name: string): Said {
   return { day, time: `${hours}:${minutes}:${seconds}`, what, kind };
 }
 
-/** The forms that a recording can be fetched in; the server makes those that are not there yet. */
-export const FORMS = [
+export interface Form {
+  ending: string;
+  title: string;
+}
+
+const FORMS: Form[] = [
   { ending: "npz", title: "The recording itself: NumPy arrays" },
   { ending: "html", title: "A page that plays it, for every browser" },
   { ending: "mcap", title: "For Foxglove" },
 ];
+
+/** What a file of a recording can be fetched as. Of the recording itself the server makes other forms, as far
+    as it says that it can (`made`; where it says nothing, all of them). */
+export function formsOf(name: string, made: string[] | undefined): Form[] {
+  const ending = name.split(".").at(-1) ?? "";
+  if (ending !== "npz") return [{ ending, title: name }];
+  return made ? FORMS.filter((form) => made.includes(form.ending)) : FORMS;
+}
 
 /** Of several files of one recording the one itself, else whatever there is; in their order. */
 export function once<File extends { name: string }>(files: File[]): File[] {

@@ -6,25 +6,41 @@ import { drives, type Source } from "../source";
 import { ask } from "../ui/ask";
 import { Section } from "../ui/controls";
 import { Icon } from "../ui/icons";
-import { addressOf, duration, FORMS, once, readName, size, stem } from "./names";
+import { download } from "./download";
+import { addressOf, duration, formsOf, once, readName, size, stem } from "./names";
 import { openReplay } from "./replay";
 import "./recordings.css";
+
+/** Where it was not told which there are, it is asked again [ms]. */
+const AGAIN = 3000;
 
 export function RecordingsPanel({ source }: { source: Source }) {
   const recording = source.status.value?.recording ?? false;
   const link = source.link.value;
   useEffect(() => {
-    if (link === "open" && !recording) void source.send({ do: "recordings" });
+    if (link !== "open" || recording) return;
+    let gone = false;
+    let timer = 0;
+    const look = async () => {
+      const { because } = await ask(source, { do: "recordings" });
+      if (because && !gone) timer = window.setTimeout(() => void look(), AGAIN);
+    };
+    void look();
+    return () => {
+      gone = true;
+      clearTimeout(timer);
+    };
   }, [source, recording, link]);
-  const kept = once(source.recordings.value?.names ?? []);
+  const known = source.recordings.value;
+  const kept = once(known?.names ?? []);
   return (
     <>
       <Recorder source={source} recording={recording} />
       <Section title="Kept" aside={kept.length ? `${kept.length}, the last first` : ""}>
-        {!kept.length && <p class="faint about">There is none yet.</p>}
+        {!kept.length && <p class="faint about">{known ? "There is none yet." : "looking …"}</p>}
         <ul class="kept" data-testid="recordings">
           {kept.map((one) => (
-            <Kept key={one.name} {...one} />
+            <Kept key={one.name} {...one} made={source.hello.value?.choices.forms} />
           ))}
         </ul>
       </Section>
@@ -68,10 +84,17 @@ function Recorder({ source, recording }: { source: Source; recording: boolean })
   );
 }
 
-function Kept({ name, bytes }: Recordings["names"][number]) {
+function Kept({ name, bytes, made }: Recordings["names"][number] & { made?: string[] }) {
   const { day, time, what } = readName(name);
-  const ending = name.split(".").at(-1) ?? "";
-  const forms = ending === "npz" ? FORMS : [{ ending, title: name }];
+  const [because, setBecause] = useState("");
+  const [waits, setWaits] = useState("");
+  const take = async (ending: string) => {
+    if (waits) return;
+    setBecause("");
+    setWaits(ending);
+    setBecause(await download(`${stem(name)}.${ending}`));
+    setWaits("");
+  };
   return (
     <li data-testid="recording" data-name={name}>
       <button class="icon" data-testid="play" title="Play it" onClick={() => openReplay(name)}>
@@ -82,21 +105,31 @@ function Kept({ name, bytes }: Recordings["names"][number]) {
       </span>
       <span class="kept-forms">
         <span class="faint">{size(bytes)}</span>
-        {forms.map(({ ending, title }) => {
+        {formsOf(name, made).map(({ ending, title }) => {
           const file = `${stem(name)}.${ending}`;
           return (
             <a
               key={ending}
               href={addressOf(file, location.search)}
               download={file}
-              title={title}
+              title={waits === ending ? "It is being made …" : title}
+              class={waits === ending ? "waits" : ""}
               data-testid={`download-${ending}`}
+              onClick={(event) => {
+                event.preventDefault();
+                void take(ending);
+              }}
             >
               {ending}
             </a>
           );
         })}
       </span>
+      {because && (
+        <p class="refusal" data-testid="download-refused">
+          {because}
+        </p>
+      )}
     </li>
   );
 }

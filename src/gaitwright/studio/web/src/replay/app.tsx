@@ -2,7 +2,7 @@
 // by side once a second one is dropped onto it.
 
 import { signal } from "@preact/signals";
-import { useEffect, useState } from "preact/hooks";
+import { useEffect, useLayoutEffect, useState } from "preact/hooks";
 import { Dock } from "../shell/dock";
 import { dockWidth } from "../shell/docks";
 import { switchTheme, theme } from "../shell/theme";
@@ -14,7 +14,7 @@ import type { Panel } from "../panels";
 import { clock } from "./clock";
 import { dropped } from "./embedded";
 import { listenToKeys } from "./keys";
-import { Player } from "./player";
+import type { Player } from "./player";
 import { Report } from "./report";
 import { RulesOverTime } from "./rules";
 import { Scrubber } from "./scrubber";
@@ -32,15 +32,17 @@ export function ReplayApp({ first }: { first: Player }) {
   const [shown, setShown] = useState(0);
   const [over, setOver] = useState(false);
   useEffect(() => listenToKeys(clock, first.recording.rate), [first]);
+  useEffect(() => clock.run(), []);
   const players = second ? [first, second] : [first];
+  useLayoutEffect(() => clock.lasts(Math.max(...players.map(({ duration }) => duration))), [first, second]);
   const drop = async (event: DragEvent) => {
     event.preventDefault();
     setOver(false);
     const file = event.dataTransfer?.files[0];
     if (!file) return;
-    const found = await dropped(file);
+    const found = await dropped(file, clock);
     trouble.value = typeof found === "string" ? `${file.name}: ${found}` : "";
-    if (typeof found !== "string") setSecond(await Player.of(found, clock));
+    if (typeof found !== "string") setSecond(found);
   };
   return (
     <div

@@ -12,14 +12,30 @@ class Clock {
   readonly atEnd = computed(() => this.time.value >= this.duration.value);
   private before = 0;
 
-  /** Goes on to a time of the page's clock [ms]; the same one twice changes nothing. */
+  /** Goes on with every picture of the display, also where there are no views, until it is stopped. */
+  run(): () => void {
+    let running = 0;
+    const next = (now: number) => {
+      running = requestAnimationFrame(next);
+      this.advance(now);
+    };
+    running = requestAnimationFrame(next);
+    return () => cancelAnimationFrame(running);
+  }
+
+  /** Goes on to a time of the page's clock [ms]. */
   advance(now: number): void {
     const passed = Math.min(0.25, Math.max(0, (now - this.before) / 1000));
-    if (now === this.before) return;
     this.before = now;
     if (!this.playing.peek()) return;
     this.seek(this.time.peek() + passed * this.speed.peek());
     if (this.time.peek() >= this.duration.peek()) this.playing.value = false;
+  }
+
+  /** What is shown lasts so long [s]. */
+  lasts(duration: number): void {
+    this.duration.value = duration;
+    this.seek(this.time.peek());
   }
 
   seek(time: number): void {

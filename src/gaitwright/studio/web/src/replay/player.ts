@@ -22,6 +22,7 @@ export class Player implements Source {
   readonly role = signal<Role>({ say: "role", role: "watcher", watchers: 0, has_driver: false });
   readonly lost = signal("");
   readonly closed = signal("");
+  readonly silent = signal("");
   readonly moved: ReadonlySignal<Moved | null>;
   readonly scan = nothing;
   readonly seen = nothing;
@@ -49,7 +50,6 @@ export class Player implements Source {
     for (let k = 0; k < count; k++) this.rows.add(data.subarray(k * layout.width, (k + 1) * layout.width));
     this.hello = signal(helloOf(recording));
     this.beat = clock.time;
-    clock.duration.value = Math.max(clock.duration.peek(), this.rows.last());
     const place = computed(() => lastBefore(recording.events, clock.time.value));
     this.event = computed(() => recording.events[place.value] ?? null);
     const movers = recording.movers ?? [];
@@ -63,6 +63,7 @@ export class Player implements Source {
     const whole = await unpacked(found.rows).arrayBuffer();
     const data = new Float32Array(whole, 0, whole.byteLength >> 2);
     const world = (await unpacked(found.world).json()) as World;
+    if (data.length < new Layout(found.columns).width || !world.robots?.length) throw new Error("nothing to play");
     return new Player(fromZero(found, data), world, data, clock);
   }
 
@@ -79,8 +80,7 @@ export class Player implements Source {
     return this.rows.row(Math.min(this.rows.count - 1, this.rows.from(this.now())));
   }
 
-  sample(robot: number, now: number, out: Float32Array): boolean {
-    this.clock.advance(now);
+  sample(robot: number, _now: number, out: Float32Array): boolean {
     if (robot !== 0 || !this.rows.count) return false;
     const time = this.now();
     const after = Math.min(this.rows.count - 1, this.rows.from(time));

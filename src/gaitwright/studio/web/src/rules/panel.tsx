@@ -13,7 +13,7 @@ import { Forest } from "./forest";
 import { Lessons } from "./lessons";
 import { Operators } from "./operators";
 import { Ordered } from "./ordered";
-import { useWhy } from "./why";
+import { useNow } from "./why";
 import "./rules.css";
 import "./forest.css";
 
@@ -111,10 +111,10 @@ function Progress({ status }: { status: string }) {
 }
 
 function Detail({ source, rules, rule, lit }: { source: Source; rules: Rules; rule: Rule; lit: boolean }) {
-  const why = useWhy(source, rule.name);
+  const now = useNow(source, rule.name);
   const place = useRef<HTMLDivElement>(null);
   useEffect(() => place.current?.scrollIntoView({ block: "nearest" }), []);
-  const fires = why ? why.fires === rule.name : lit;
+  const fires = now ? now.fires === rule.name : lit;
   return (
     <div class="rule-detail" ref={place} data-testid="rule-detail">
       <p>
@@ -125,7 +125,7 @@ function Detail({ source, rules, rule, lit }: { source: Source; rules: Rules; ru
       <Asking source={source} rule={rule.name} fires={fires} />
       <Order source={source} rules={rules} rule={rule} />
       <Legend />
-      <Forest trees={rules.trees} rule={rule} situation={why?.situation ?? {}} />
+      <Forest trees={rules.trees} rule={rule} situation={now?.situation ?? {}} />
       <h3>
         What moved its marks <span>{rule.history.length}</span>
       </h3>

@@ -7,6 +7,7 @@ import { useMap } from "../map/panel";
 import { panels } from "../panels";
 import type { Source } from "../source";
 import { Shown } from "../teach/shown";
+import { useOwnRun } from "../teach/teaching";
 import { Stage } from "../view/stage";
 import { BottomBar } from "./bottom-bar";
 import { Dock } from "./dock";
@@ -17,6 +18,7 @@ import { dockWidth } from "./docks";
 export function App({ source }: { source: Source }) {
   useHands(source);
   useMap(source);
+  useOwnRun(source);
   const hands = useMemo(() => tools(source), [source]);
   const style = { "--left": `${dockWidth("left")}px`, "--right": `${dockWidth("right")}px` };
   return (

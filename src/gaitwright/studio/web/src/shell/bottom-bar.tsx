@@ -1,4 +1,4 @@
-// The bar below: time and its pace, what the robot says, recording, start over, abort.
+// The bar below: time and its pace, what the robot says, recording, reset, abort.
 
 import { effect, type Signal, signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
@@ -62,11 +62,23 @@ export function BottomBar({ source }: { source: Source }) {
         <Icon name="record" />
         {status?.recording ? "Recording" : "Record"}
       </button>
-      <button class="icon-text" data-testid="reset" disabled={watching} onClick={() => void send({ do: "reset" })}>
+      <button
+        class="icon-text"
+        title="Another run from the start: same robot, same scene (others under “World”)"
+        data-testid="reset"
+        disabled={watching}
+        onClick={() => void send({ do: "reset" })}
+      >
         <Icon name="reset" />
         Reset
       </button>
-      <button class="icon-text danger" data-testid="abort" disabled={watching} onClick={() => void send({ do: "abort" })}>
+      <button
+        class="icon-text danger"
+        title="The robot comes to a stand, is let down, and its motors go off"
+        data-testid="abort"
+        disabled={watching}
+        onClick={() => void send({ do: "abort" })}
+      >
         <Icon name="stop" />
         Abort
       </button>

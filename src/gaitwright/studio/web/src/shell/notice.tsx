@@ -1,23 +1,23 @@
-// Over the views: that there is no connection, or that the run is over, and what to do about it.
+// Over the views: that there is no connection, that the run is over or says nothing, and what to do about it.
 
 import { drives, type Source } from "../source";
 import { Icon } from "../ui/icons";
 
 export function Notice({ source }: { source: Source }) {
   const lost = source.lost.value;
-  const over = source.closed.value || source.status.value?.over || "";
+  const over = source.closed.value || source.silent.value || source.status.value?.over || "";
   if (!lost && !over) return null;
   return (
-    <div class={`notice ${lost || source.closed.value ? "bad" : ""}`} role="alert" data-testid="notice">
+    <div class={`notice ${lost || source.closed.value || source.silent.value ? "bad" : ""}`} role="alert" data-testid="notice">
       <p>{lost || over}</p>
       {!lost &&
         (drives(source) ? (
           <button class="primary icon-text" data-testid="begin-again" onClick={() => void source.send({ do: "reset" })}>
             <Icon name="reset" />
-            Begin another run
+            Reset
           </button>
         ) : (
-          <p class="faint">Who drives can begin another run.</p>
+          <p class="faint">Who drives can reset it.</p>
         ))}
     </div>
   );

@@ -5,6 +5,7 @@ import { drives, type Source } from "../source";
 import { driverColour, skillColour } from "../ui/colours";
 import { number, Segmented, Select } from "../ui/controls";
 import { Icon } from "../ui/icons";
+import { DRIVERS, explained, MODES } from "../ui/words";
 import { switchTheme, theme } from "./theme";
 
 export function TopBar({ source }: { source: Source }) {
@@ -45,9 +46,17 @@ function Authority({ source }: { source: Source }) {
       style={{ "--who": driverColour(controller) }}
     >
       <span class="lamp" />
-      <span class="authority-label">Joints</span>
-      <strong data-testid="controller">{controller || "nobody"}</strong>
-      {asked && <span class="faint asked">for {asked}</span>}
+      <span class="authority-label" title="Who computes the torques of the joints now">
+        Joints
+      </span>
+      <strong data-testid="controller" title={explained(controller, DRIVERS)}>
+        {controller || "nobody"}
+      </strong>
+      {asked && (
+        <span class="faint asked" title={explained(asked, DRIVERS)}>
+          for {asked}
+        </span>
+      )}
       {status?.skill && (
         <span class="chip" data-testid="skill" style={{ "--chip": skillColour(status.skill) }}>
           {status.skill}
@@ -86,7 +95,8 @@ function Choices({ source }: { source: Source }) {
       />
       <Select
         id="driver"
-        title="Who is to compute the torques"
+        title={`Who is to compute the torques of the joints\n${explained(status.driver, DRIVERS)}`}
+        titles={DRIVERS}
         choices={hello.choices.drivers}
         value={status.driver}
         choose={(driver) => void source.send({ do: "drive", driver })}
@@ -95,12 +105,6 @@ function Choices({ source }: { source: Source }) {
     </>
   );
 }
-
-const MODES: Record<Mode, string> = {
-  guide: "Compose a motion and play it back",
-  apprentice: "Let it be learned",
-  plan: "Give a destination",
-};
 
 function LinkState({ source }: { source: Source }) {
   const link = source.link.value;
@@ -112,13 +116,27 @@ function LinkState({ source }: { source: Source }) {
       {link !== "open" ? (
         link === "lost" ? "no connection" : "connecting"
       ) : role === "driver" ? (
-        <button title="Let somebody else drive" data-testid="release" onClick={() => void source.send({ do: "release" })}>
-          driving
-        </button>
+        <>
+          <span class="link-word">you drive</span>
+          <button
+            title="Gives the wheel away: this page only watches then, until it takes over again"
+            data-testid="release"
+            onClick={() => void source.send({ do: "release" })}
+          >
+            Let go
+          </button>
+        </>
       ) : (
-        <button title="Become the driver" data-testid="take" onClick={() => void source.send({ do: "take" })}>
-          {has_driver ? "watching · take over" : "take over"}
-        </button>
+        <>
+          <span class="link-word">{has_driver ? "you watch" : "nobody drives"}</span>
+          <button
+            title={has_driver ? "Takes the wheel from the page that drives now" : "This page drives then"}
+            data-testid="take"
+            onClick={() => void source.send({ do: "take" })}
+          >
+            Take over
+          </button>
+        </>
       )}
     </span>
   );

@@ -22,7 +22,7 @@ export function StatusPanel({ source }: { source: Source }) {
 }
 
 function Over({ status }: { status: Status }) {
-  const how = status.fell ? "bad" : status.arrived ? "good" : "";
+  const how = status.fell ? "bad" : status.arrived && !status.over ? "good" : "";
   return (
     <p class={`banner ${how}`} data-testid="over">
       {status.over ?? status.outcome}

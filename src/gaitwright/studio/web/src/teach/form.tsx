@@ -24,7 +24,7 @@ export function Form({ source, disabled }: { source: Source; disabled: boolean }
       <Line label="Skill" field="skill">
         <select
           data-testid="right-skill"
-          value={now.skill}
+          value={skills.includes(now.skill) ? now.skill : ""}
           disabled={disabled}
           onChange={(event) => say({ skill: event.currentTarget.value })}
         >

@@ -22,7 +22,7 @@ export function Outcome({ source, disabled }: { source: Source; disabled: boolea
             Keep
           </button>
           <button data-testid="drop" disabled={disabled} onClick={() => void drop(source)}>
-            Not
+            Drop
           </button>
         </div>
         {because && <p class="refusal">{because}</p>}

@@ -45,7 +45,7 @@ export function Shown({ source }: { source: Source }) {
           Keep
         </button>
         <button data-testid="proposed-drop" disabled={!driving} onClick={() => void drop(source)}>
-          Not
+          Drop
         </button>
         <button data-testid="proposed-more" onClick={() => (tabs.left.value = "teach")}>
           What else?

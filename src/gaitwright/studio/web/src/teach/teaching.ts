@@ -1,6 +1,7 @@
 // What a person is about to teach: what is said in the form, what it would do, what was learned last.
 
-import { signal } from "@preact/signals";
+import { effect, signal } from "@preact/signals";
+import { useEffect } from "preact/hooks";
 import type { Tried } from "../protocol";
 import type { Source } from "../source";
 import { ask } from "../ui/ask";
@@ -73,9 +74,24 @@ export async function order(source: Source, rule: string, before: string): Promi
   return because;
 }
 
-/** What was tried is learned. */
+/** Nothing that was tried in a run stays on the page after it. */
+export function useOwnRun(source: Source): void {
+  useEffect(
+    () =>
+      effect(() => {
+        const skills = source.hello.value?.choices.skills ?? [];
+        if (!skills.includes(said.peek().skill)) said.value = { ...said.peek(), skill: "" };
+        propose(null, null);
+        stopped = false;
+      }),
+    [source],
+  );
+}
+
+/** What was tried, and is shown, is learned; where another lesson is open meanwhile, the studio refuses. */
 export async function keep(source: Source): Promise<void> {
-  const { more, because } = await ask<{ lesson: string }>(source, { do: "keep" });
+  const lesson = tried.peek()?.lesson ?? "";
+  const { more, because } = await ask<{ lesson: string }>(source, { do: "keep", lesson });
   if (more) {
     tried.value = null;
     said.value = NOTHING;

@@ -64,6 +64,8 @@ export function Select(props: {
   choose: (value: string) => void;
   disabled?: boolean;
   title?: string;
+  /** Of each choice. */
+  titles?: Record<string, string>;
 }) {
   return (
     <select
@@ -75,7 +77,7 @@ export function Select(props: {
     >
       {!props.choices.includes(props.value) && <option value={props.value}>{props.value || "–"}</option>}
       {props.choices.map((choice) => (
-        <option key={choice} value={choice}>
+        <option key={choice} value={choice} title={props.titles?.[choice]}>
           {choice || "–"}
         </option>
       ))}

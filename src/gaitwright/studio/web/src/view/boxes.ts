@@ -67,23 +67,20 @@ export class Boxes {
     return this.boxes.find((box) => box.id === id);
   }
 
-  /** Where things are now; one that brings its sizes and was not known is something that moves by itself. */
-  move(things: readonly (Thing & Partial<Box>)[]): void {
-    for (const thing of things) {
-      const own = thing.lx !== undefined;
-      const id = own ? `moving ${thing.id}` : thing.id;
-      let box = this.find(id);
-      if (!box && own && this.boxes.length < this.mesh.instanceMatrix.count) {
-        box = { lx: 0, ly: 0, lz: 0, ...thing, fixed: true, id };
-        this.boxes.push(box);
-      }
-      if (box) Object.assign(box, { ...thing, id });
-    }
-    const moving = new Set(things.filter((thing) => thing.lx !== undefined).map((thing) => `moving ${thing.id}`));
-    if (moving.size) {
-      const gone = (box: Box) => isMoving(box.id) && !moving.has(String(box.id));
-      for (let k = this.boxes.length - 1; k >= 0; k--) if (gone(this.boxes[k])) this.boxes.splice(k, 1);
-    }
+  /** Where the things are that move by themselves: these, and no others. */
+  move(things: readonly Thing[]): void {
+    const still = this.boxes.filter(({ id }) => !isMoving(id));
+    const room = this.mesh.instanceMatrix.count - still.length;
+    const moving = things.slice(0, room).map((thing) => ({ ...thing, id: `moving ${thing.id}` }));
+    if (!moving.length && still.length === this.boxes.length) return;
+    this.boxes = [...still, ...moving];
+    this.draw();
+  }
+
+  /** Another place for a box, as the hand has it. */
+  put(id: Id, place: Pick<Box, "x" | "y" | "z" | "yaw">): void {
+    const box = this.find(id);
+    if (box) Object.assign(box, place);
     this.draw();
   }
 
@@ -165,6 +162,7 @@ export class Boxes {
   }
 }
 
-function isMoving(id: Id): boolean {
+/** Whether it moves by itself: nobody takes hold of it. */
+export function isMoving(id: Id): boolean {
   return typeof id === "string" && id.startsWith("moving ");
 }

@@ -35,6 +35,7 @@ export class Engine {
   private readonly quality: Quality;
   private world: World | null = null;
   private robots: Robots | null = null;
+  private readonly paint = paint();
   private readonly lights = new Lights();
   private theme: Theme = "light";
   private rows: Float32Array[] = [];
@@ -82,7 +83,7 @@ export class Engine {
     if (!world) return;
     this.scenery = new Scenery(world);
     this.poses = world.robots.map((robot) => new Pose(robot));
-    this.robots = new Robots(world.robots, paint());
+    this.robots = new Robots(world.robots, this.paint);
     this.robots.group.visible = false;
     this.scene.add(this.scenery.group, this.robots.group);
     this.overlays.arrange(world);

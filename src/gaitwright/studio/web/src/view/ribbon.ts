@@ -4,6 +4,8 @@ import {
   BufferAttribute, BufferGeometry, type ColorRepresentation, DoubleSide, GreaterDepth, Mesh, MeshBasicMaterial,
 } from "three";
 
+type Line = readonly (readonly number[])[];
+
 export class Ribbon {
   readonly mesh: Mesh<BufferGeometry, MeshBasicMaterial>;
   /** Wider for larger robots. */
@@ -27,9 +29,22 @@ export class Ribbon {
     this.mesh.add(this.behind);
   }
 
-  set(points: readonly (readonly number[])[], closed = false): void {
-    const line = closed && points.length > 2 ? [...points, points[0]] : points;
+  set(points: Line, closed = false): void {
+    this.setAll([closed ? close(points) : points]);
+  }
+
+  /** Several lines, drawn as one. */
+  setAll(lines: readonly Line[]): void {
     const at: number[] = [];
+    for (const line of lines) this.lay(line, at);
+    this.mesh.geometry.dispose();
+    this.mesh.geometry = new BufferGeometry();
+    this.mesh.geometry.setAttribute("position", new BufferAttribute(new Float32Array(at), 3));
+    if (this.behind) this.behind.geometry = this.mesh.geometry;
+    this.mesh.visible = at.length > 0;
+  }
+
+  private lay(line: Line, at: number[]): void {
     for (let k = 0; k + 1 < line.length; k++) {
       const [a, b] = [line[k], line[k + 1]];
       const long = Math.hypot(b[0] - a[0], b[1] - a[1]);
@@ -43,10 +58,10 @@ export class Ribbon {
       ];
       for (const corner of [0, 1, 2, 0, 2, 3]) at.push(...corners[corner]);
     }
-    this.mesh.geometry.dispose();
-    this.mesh.geometry = new BufferGeometry();
-    this.mesh.geometry.setAttribute("position", new BufferAttribute(new Float32Array(at), 3));
-    if (this.behind) this.behind.geometry = this.mesh.geometry;
-    this.mesh.visible = at.length > 0;
   }
+}
+
+/** A line that ends where it begins. */
+export function close(points: Line): Line {
+  return points.length > 2 ? [...points, points[0]] : points;
 }

@@ -95,10 +95,10 @@ export class Scenery {
 
   dispose(): void {
     this.group.traverse((one) => {
-      if (one instanceof Mesh) one.geometry.dispose();
+      if (!(one instanceof Mesh)) return;
+      one.geometry.dispose();
+      one.material.dispose();
     });
-    this.ground.material.dispose();
-    this.stone.dispose();
   }
 
   private add(shape: BufferGeometry): void {

@@ -40,7 +40,8 @@ export function Stage({ source, tools }: { source: Source; tools?: Tools }) {
         made.scenery?.boxes.replace(boxes);
       }),
       effect(() => {
-        if (source.moved.value) made.scenery?.boxes.move(source.moved.value.things);
+        const things = source.moved.value?.things ?? [];
+        made.scenery?.boxes.move(things);
       }),
       effect(() => {
         made.watched = watched.value;

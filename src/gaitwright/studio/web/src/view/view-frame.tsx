@@ -43,7 +43,7 @@ export function ViewFrame(props: {
         <select
           data-testid={`camera-${index}`}
           value={kind}
-          title="Camera: drag turns, right button moves, wheel zooms, double click starts over"
+          title="Camera: drag turns, right button moves, wheel zooms, double click: as it was at first"
           onChange={(event) => look(index, event.currentTarget.value as Kind)}
         >
           {KINDS.map((one) => (
@@ -55,7 +55,7 @@ export function ViewFrame(props: {
         {kind === "foot" && (
           <select
             data-testid={`foot-${index}`}
-            value={rig.leg}
+            value={Math.min(rig.leg, legs.length - 1)}
             onChange={(event) => (rig.leg = Number(event.currentTarget.value))}
           >
             {legs.map((leg, k) => (

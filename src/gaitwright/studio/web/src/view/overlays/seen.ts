@@ -5,7 +5,7 @@ import {
 } from "three";
 import { floats } from "../../bytes";
 import type { Seen } from "../../protocol";
-import { Ribbon } from "../ribbon";
+import { close, Ribbon } from "../ribbon";
 import type { Moment, Overlay } from "./overlay";
 
 const LOW = new Color("#2b5f9e");
@@ -19,16 +19,18 @@ export class SeenGround implements Overlay {
     new BufferGeometry(),
     new PointsMaterial({ vertexColors: true, sizeAttenuation: true, size: 0.02, toneMapped: false }),
   );
-  private outlines: Ribbon[] = [];
-  private drawn: Seen | null = null;
+  /** What is in the way, and where it walked: all lines of a kind as one, however many there are. */
+  private readonly blocked = new Ribbon("#f03e3e", 0.018, 0.9);
+  private readonly walked = new Ribbon("#4263eb", 0.018, 0.9);
+  private drawn: Seen | null | undefined;
 
   constructor() {
     this.points.frustumCulled = false;
-    this.object.add(this.points);
+    this.object.add(this.points, this.blocked.mesh, this.walked.mesh);
   }
 
   arrange(): void {
-    this.drawn = null;
+    this.drawn = undefined;
   }
 
   update({ source, height }: Moment): void {
@@ -36,21 +38,12 @@ export class SeenGround implements Overlay {
     if (seen === this.drawn) return;
     this.drawn = seen;
     this.points.visible = Boolean(seen);
-    for (const line of this.outlines) this.object.remove(line.mesh);
-    this.outlines = [];
-    if (!seen) return;
-    this.drawHeights(seen);
+    if (seen) this.drawHeights(seen);
     const lay = (points: number[][]) => points.map(([x, y]) => [x, y, height(x, y) + 0.02]);
-    for (const outline of seen.obstacles) this.line("#f03e3e", lay(outline), true);
-    for (const [x0, y0, x1, y1] of seen.walls ?? []) this.line("#f03e3e", lay([[x0, y0], [x1, y1]]), false);
-    for (const road of seen.roads ?? seen.walked ?? []) this.line("#4263eb", lay(road), false);
-  }
-
-  private line(colour: string, points: number[][], closed: boolean): void {
-    const line = new Ribbon(colour, 0.018, 0.9);
-    line.set(points, closed);
-    this.outlines.push(line);
-    this.object.add(line.mesh);
+    const obstacles = (seen?.obstacles ?? []).map((outline) => close(lay(outline)));
+    const walls = (seen?.walls ?? []).map(([x0, y0, x1, y1]) => lay([[x0, y0], [x1, y1]]));
+    this.blocked.setAll([...obstacles, ...walls]);
+    this.walked.setAll((seen?.walked ?? []).map(lay));
   }
 
   private drawHeights(seen: Seen): void {

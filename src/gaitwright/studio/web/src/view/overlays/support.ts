@@ -14,7 +14,7 @@ export class Support implements Overlay {
   private readonly next = new Ribbon("#0ca678", 0.005, 0.45);
   private readonly centre = new Group();
   private readonly paint = new MeshBasicMaterial({ color: "#0ca678", side: DoubleSide, toneMapped: false });
-  private drawn: Scan | null = null;
+  private drawn: Scan | null | undefined;
 
   constructor() {
     const ring = new Mesh(new RingGeometry(0.018, 0.024, 32), this.paint);

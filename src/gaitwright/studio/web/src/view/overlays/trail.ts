@@ -1,5 +1,6 @@
 // The way that the robot came.
 
+import type { History } from "../../history";
 import { Ribbon } from "../ribbon";
 import { watched } from "../settings";
 import type { Moment, Overlay } from "./overlay";
@@ -11,16 +12,19 @@ export class Trail implements Overlay {
   private readonly line = new Ribbon("#868e96", 0.012, 0.8);
   readonly object = this.line.mesh;
   private drawn = -1;
+  /** Of which run. */
+  private of: History | null = null;
 
   arrange(): void {
-    this.drawn = -1;
+    this.of = null;
   }
 
   update({ source, layout, size, height }: Moment): void {
     const history = source.history(watched.peek());
     const now = source.now();
-    if (!history || Math.abs(now - this.drawn) < EVERY) return;
-    this.drawn = now;
+    if (!history) this.line.set([]);
+    if (!history || (history === this.of && Math.abs(now - this.drawn) < EVERY)) return;
+    [this.of, this.drawn] = [history, now];
     this.line.scale = size;
     const last = Math.min(history.count - 1, history.from(now));
     const stride = Math.max(1, Math.ceil(last / POINTS));
