@@ -20,6 +20,7 @@ from gaitwright.studio.messages import Anyone, Release, Reset, Take, id_of, mess
 MOST_ANSWERS, MOST_WATCHERS = 256, 64
 KINDS = ("hello", "world", "boxes", "rules", "status", "scan", "seen", "moved", "curve", "tried", "closed")
 """Of what is said to everybody, one who comes later is told the last of each of these, in this order."""
+OF_A_RUN = ("scan", "seen", "moved", "tried")
 APART, MOST_PAST = 4.0, 60
 """What was seen of the ground is kept for every so many metres of the way, of so many places (13 MB)."""
 RATE, BURST = 60.0, 120.0
@@ -124,7 +125,7 @@ class Hub:
                 self.answer(member.number, json.dumps({"say": "done", "id": message.id}))
                 return
             if member.number != self.driver and not isinstance(message, Anyone):
-                raise WrongUse("somebody else drives: `take` the wheel first")
+                raise WrongUse("somebody else drives: take over first")
             if self.closed and not isinstance(message, Reset):
                 raise WrongUse("the run has ended: a reset begins another")
             if isinstance(message, Reset) and (self.closed or self.hangs):
@@ -170,6 +171,8 @@ class Hub:
             return
         said = json.loads(text)
         kind = str(said["say"])
+        if kind == "hello":
+            self.forget_run()
         if kind == "closed" and self.closed:
             return  # what it said itself says more
         self.last[kind] = text
@@ -180,11 +183,18 @@ class Hub:
             member.said[kind] = text
             member.news.set()
 
+    def forget_run(self) -> None:
+        """Another run begins: nobody is told of the one before any more."""
+        self.past = {}
+        for told in (self.last, *(member.said for member in self.members.values())):
+            for kind in OF_A_RUN:
+                told.pop(kind, None)
+        for member in self.members.values():
+            member.past = []
+
     def remember(self, kind: str, said: dict[str, Any], text: str) -> None:
-        """Keeps what was seen of the ground, until another run begins, and what the run is of."""
-        if kind == "hello":
-            self.past = {}
-        elif kind == "status":
+        """Keeps what was seen of the ground, and what the run is of."""
+        if kind == "status":
             self.setup = said["setup"] | {"driver": said["driver"]}
         elif kind == "seen":
             place = math.floor(said["x"] / APART), math.floor(said["y"] / APART)

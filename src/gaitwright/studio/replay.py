@@ -26,6 +26,7 @@ from gaitwright.record.notes import DONE
 from gaitwright.record.recording import Recording
 from gaitwright.record.scene_of import rearranged, scene_of
 from gaitwright.studio.frames import columns_of
+from gaitwright.studio.setup import who_drives
 from gaitwright.studio.shown import things_shown, world_shown
 
 RATE = 50.0
@@ -81,7 +82,7 @@ def replay_data(recording: Recording, scene: Scene | None = None) -> dict[str, A
         "title": f"{recording.robot.name} in {recording.scene or 'a scene'}: {recording.stopped_because}",
         "world": pressed(json.dumps(world, allow_nan=False).encode()),
         "columns": told_columns(recording.robot.n),
-        "drivers": list(recording.drivers),
+        "drivers": [who_drives(driver) for driver in recording.drivers],
         "rate": 1.0 / (step * recording.dt),
         "count": len(rows),
         "rows": pressed(np.ascontiguousarray(rows, "<f4").tobytes()),
@@ -126,7 +127,7 @@ def events_of(recording: Recording) -> Iterator[dict[str, Any]]:
     """When skill, driver or rule changed, and to what."""
     for change in changes_of(recording):
         by_rule = f"rule {change.rule}" if change.rule else ""
-        yield change._asdict() | {"because": change.because or by_rule}
+        yield change._asdict() | {"driver": who_drives(change.driver), "because": change.because or by_rule}
 
 
 def moves_of(recording: Recording, scene: Scene) -> list[dict[str, Any]]:

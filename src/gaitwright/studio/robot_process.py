@@ -67,7 +67,8 @@ class RobotProcess:
             self.asked.put_nowait(None)
         self.process.join(patience if self.process.is_alive() else 0.0)
         if self.process.is_alive():
-            self.process.terminate()
+            self.process.kill()
+            self.process.join(SETTLES)
 
 
 def hand_on(asked: "Queue[bytes | None]", ends: Ends) -> None:

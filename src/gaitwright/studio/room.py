@@ -143,6 +143,7 @@ class Room:
     # --- what is said -------------------------------------------------------------------------------
     def welcome(self) -> None:
         """Says all that one who comes in has to know."""
+        self.run.warm_up()
         self.teaching.warm_up()
         legs = self.run.robot.n
         choices = {

@@ -41,8 +41,10 @@ HEADERS = [
     (b"referrer-policy", b"no-referrer"),
     (b"cache-control", b"no-cache"),
 ]
-NO_ENTRY, DENIED = 403, 4403
-"""Answers: of HTTP, and of a socket that is closed before it opens."""
+NO_ENTRY, DENIED, FULL = 403, 4403, 4429
+"""Answers: of HTTP, and of a socket that is closed before it opens, or at once."""
+MOST_REASON = 120
+"""Letters; what closes a socket has little room."""
 
 
 def application(
@@ -65,8 +67,7 @@ def application(
         check_token(request, token)
         name = request.path_params["name"]
         try:
-            async with making:
-                path = await taken_home(shelf, name)
+            path = await taken_home(shelf, name, making)
         except WrongUse as error:
             raise HTTPException(404, str(error)) from None
         if path.suffix == ".html":  # it has a script inside, which finds no token where it is shown
@@ -83,12 +84,12 @@ def application(
         if not same(socket.query_params.get("token", ""), token):
             await socket.close(DENIED)
             return
+        await socket.accept()
         try:
             member = hub.enter()
         except WrongUse as error:
-            await socket.close(DENIED, str(error))
+            await socket.close(FULL, str(error)[:MOST_REASON])
             return
-        await socket.accept()
         await converse(hub, member, socket)
 
     routes = [
@@ -102,21 +103,29 @@ def application(
     return Guarded(Starlette(routes=routes), hosts)
 
 
-async def taken_home(shelf: Shelf, name: str) -> Path:
+async def taken_home(shelf: Shelf, name: str, making: asyncio.Lock) -> Path:
     """A recording in the form that its name asks for, made of the recording itself where it is not there yet.
 
-    Another process makes it, so that frames go on. Raises `WrongUse` where there is no such recording.
+    Another process makes it, so that frames go on, one at a time. Raises `WrongUse` where there is no such
+    recording.
     """
     if shelf.has(name):
         return shelf.path(name)
     source, out = shelf.path(f"{Path(name).stem}.npz"), shelf.place(name)
+    async with making:
+        if not shelf.has(name):  # it was asked for twice
+            await made(source, out)
+    return shelf.path(name)
+
+
+async def made(source: Path, out: Path) -> None:
+    """Makes another form of a recording. Raises `WrongUse` where it cannot be made."""
     command = [sys.executable, "-m", "gaitwright", "replay", str(source), "--out", str(out)]
     nobody = asyncio.subprocess.DEVNULL
-    making = await asyncio.create_subprocess_exec(*command, stdout=nobody, stderr=asyncio.subprocess.PIPE)
-    _, said = await making.communicate()
-    if making.returncode:
+    process = await asyncio.create_subprocess_exec(*command, stdout=nobody, stderr=asyncio.subprocess.PIPE)
+    _, said = await process.communicate()
+    if process.returncode:
         raise WrongUse(said.decode(errors="replace").strip()[-300:])
-    return shelf.path(name)
 
 
 async def converse(hub: Hub, member: Member, socket: WebSocket) -> None:

@@ -13,6 +13,8 @@ from gaitwright.skills.vocabulary import RULE_IN_USE
 from gaitwright.studio.live_run import LiveRun
 from gaitwright.studio.setup import who_drives
 
+WAITS = "it waits to be told where to go"
+
 
 def status_of(run: LiveRun, ticks: Counter[str]) -> dict[str, Any]:
     """What is so now. `ticks`: how many each driver had so far."""
@@ -23,11 +25,11 @@ def status_of(run: LiveRun, ticks: Counter[str]) -> dict[str, Any]:
         "say": "status",
         "time": round(run.time, 3),
         "driver": run.driver,
-        "controller": who_drives((lap.call.driver if lap else call.driver) or run.driver),
+        "controller": "" if session.closed else who_drives((lap or mind).call.driver or run.driver),
         "skill": call.skill,
         "held": "" if isinstance(mind.mission.guidance, Steering) else run.held,
         "velocity": [*call.velocity, call.turn],
-        "because": call.because,
+        "because": WAITS if waits(run) else call.because,
         "rule": str(call.memory.get(RULE_IN_USE, "")) if call.ruled else "",
         "firm": call.firm,
         "route": [list(point) for point in route.path],
@@ -47,6 +49,12 @@ def status_of(run: LiveRun, ticks: Counter[str]) -> dict[str, Any]:
         "recorded": run.recorder.laps * run.recorder.dt if run.recorder else 0.0,
         "setup": {name: getattr(run.setup, name) for name in ("robot", "scene", "seed", "sight")},
     }
+
+
+def waits(run: LiveRun) -> bool:
+    """Whether it stands because nobody asks it to go."""
+    guidance = run.session.mind.mission.guidance
+    return isinstance(guidance, Steering) and not any(map(any, guidance.velocities))
 
 
 def operators_in_use(run: LiveRun) -> list[dict[str, Any]]:
