@@ -115,9 +115,8 @@ def test_a_recording_is_made_and_scrubbed(page: Any, watch: Line, studio: Studio
     watch.status(lambda said: said["recording"])
     page.wait_for_timeout(1500)
     page.get_by_test_id("record").click()
-    watch.status(lambda said: not said["recording"])
-    name = watch.done(do="recordings")["recordings"]
-    made = next(one["name"] for one in name if one["name"].endswith("npz"))
+    kept = watch.until(lambda said: said["say"] == "recordings")["names"]
+    made = next(one["name"] for one in kept if one["name"].endswith("npz"))
     html = studio.folder / made.replace(".npz", ".html")
     for _ in range(100):
         if html.is_file():
