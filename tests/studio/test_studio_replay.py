@@ -19,6 +19,7 @@ from gaitwright.record.recording import Recording, load
 from gaitwright.record.scene_of import scene_of
 from gaitwright.studio import messages as m
 from gaitwright.studio.replay import PLACE, TEMPLATE, replay_data, replay_page
+from oracles import robot_called
 
 
 @pytest.fixture
@@ -139,3 +140,21 @@ def test_notes_of_a_file_are_not_believed(told: Recording, tmp_path: Path):
             load(path)
     shown = load(replace(told, notes=(Note(1.0, "mode", "\x1b[2J"),)).save(tmp_path / "red.npz"))
     assert "\x1b" not in shown.notes[0].sentence
+
+
+# --- several on one page ----------------------------------------------------------------------------
+def test_several_recordings_are_shown_on_one_ground(recording: Recording, told: Recording):
+    data = replay_data(recording, others=[told, recording])
+    world = json.loads(zlib.decompress(base64.b64decode(data["world"]), -zlib.MAX_WBITS))
+    assert [robot["name"] for robot in world["robots"]] == ["go2"] * 3
+    first, second = data["others"]
+    np.testing.assert_array_equal(rows_in({**data, **first}), rows_in(replay_data(told)))
+    assert [event["skill"] for event in second["events"]] == [event["skill"] for event in data["events"]]
+
+
+def test_what_does_not_fit_on_one_page_is_refused(recording: Recording):
+    with pytest.raises(WrongUse, match="21 recordings on one page; there can be 20"):
+        replay_data(recording, others=[recording] * 20)
+    hexapod = replace(recording, robot=robot_called("hexapod"))
+    with pytest.raises(WrongUse, match="hexapod has 6 legs, and go2 4"):
+        replay_data(recording, others=[hexapod])

@@ -199,10 +199,12 @@ COMMANDS = {
         "a recording as one page that opens by a double click",
         "Writes a page with a recording in it: robot and ground in 3-D, plots, who drove, the rules lit, and "
         "a scrubber. It needs no server and no network, and can be sent to a colleague. Recordings are what "
-        "`gaitwright mission --out DIR`, `demo` and the studio leave.",
+        "`gaitwright mission --out DIR`, `demo` and the studio leave. Several of them, up to 20, run on one "
+        "ground, each from its beginning: many starts at once.",
         (
             "gaitwright replay runs/demo-001/first/recording.npz --open",
             "gaitwright replay trip.npz --out trip.html --scene yard.json",
+            "gaitwright replay runs/*/recording.npz --out all.html",
         ),
     ),
     "doctor": Command(

@@ -1,4 +1,4 @@
-"""`gaitwright replay`: a recording as one HTML page that opens by a double click, or as MCAP."""
+"""`gaitwright replay`: recordings as one HTML page that opens by a double click, or one as MCAP."""
 
 import json
 import webbrowser
@@ -16,26 +16,34 @@ from gaitwright.studio.page_build import ready_page
 from gaitwright.studio.replay import write_replay
 
 MCAP = ".mcap"
+TOGETHER = "together.html"
 
 
 def run(args: Namespace) -> int:
     check_json(args.json)
-    out = settled(args.out or str(Path(args.recording).with_suffix(".html")), "--out")
+    first = Path(args.recordings[0])
+    usual = first.with_suffix(".html") if len(args.recordings) == 1 else first.with_name(TOGETHER)
+    out = settled(args.out or str(usual), "--out")
     if out.is_dir() or not out.parent.is_dir():
         raise WrongUse(f"--out {out}: name a file in a folder that is there")
-    with working("reading the recording", worth_a_line=None):
-        recording = load(args.recording)
+    if out.suffix == MCAP and len(args.recordings) > 1:
+        raise WrongUse(f"{MCAP} holds one recording: name one, or a page for all of them")
+    with working("reading what was recorded", worth_a_line=None):
+        recording, *others = map(load, args.recordings)
+    if any((one.scene, one.seed) != (recording.scene, recording.seed) for one in others):
+        remark(f"all are shown on the ground of the first: {recording.scene}, seed {recording.seed}")
     scene = find_scene(args.scene, recording.seed, recording.robot) if args.scene else None
     with working(f"writing {out.name}", worth_a_line=None):
         if out.suffix == MCAP:
             write_mcap(recording, out, scene)
         else:
-            write_replay(recording, out, ready_page(remark), scene)
+            write_replay(recording, out, ready_page(remark), scene, others)
     size = out.stat().st_size
-    seconds = len(recording) * recording.dt
+    seconds = max(len(one) * one.dt for one in (recording, *others))
     write_json(args.json, json.dumps({"page": str(out), "bytes": size, "seconds": seconds}))
     rows = [
         ("for Foxglove, Rerun" if out.suffix == MCAP else "page", str(out)),
+        *([("recordings", str(1 + len(others)))] if others else []),
         ("length", f"{seconds:.1f} s"),
         ("size", f"{size / 1e6:.1f} MB"),
     ]

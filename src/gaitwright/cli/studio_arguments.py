@@ -34,8 +34,9 @@ def add_studio(parser: argparse.ArgumentParser) -> None:
 
 
 def add_replay(parser: argparse.ArgumentParser) -> None:
-    page = "the page, or, with .mcap at its end, what Foxglove and Rerun open (RECORDING.html)"
-    parser.add_argument("recording", metavar="RECORDING", help="a recording (.npz) of a trip")
+    page = "the page, or, with .mcap at its end, what Foxglove and Rerun open (RECORDING.html, together.html)"
+    several = "a recording (.npz) of a trip; several (20 at most) are shown on the ground of the first"
+    parser.add_argument("recordings", metavar="RECORDING", nargs="+", help=several)
     parser.add_argument("--out", metavar="FILE", help=page)
     where = "the scene that it was recorded in (the one that it names)"
     parser.add_argument("--scene", metavar="NAME|FILE", help=where)

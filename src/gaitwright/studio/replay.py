@@ -1,4 +1,4 @@
-"""Recording → one HTML page with all in it, which opens by a double click and can be sent to a colleague.
+"""Recordings → one HTML page with all in it, which opens by a double click and can be sent to a colleague.
 
 The page is the studio's own, built as one file; a recording is put into it as JSON: its rows as in `frames`,
 but for what no recording tells (where feet should be, and where they are to land), and its world as
@@ -9,7 +9,7 @@ import base64
 import json
 import math
 import zlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any, TypeVar
@@ -32,6 +32,8 @@ from gaitwright.studio.shown import things_shown, world_shown
 RATE = 50.0
 """Rows per second, and fewer of a trip that is so long that there would be more than `MOST_ROWS`."""
 MOST_ROWS = 60_000
+MOST_TOGETHER = 20
+"""Recordings on one page."""
 MOVES = 10.0
 """So many times a second it is said where moving things are."""
 T = TypeVar("T")
@@ -46,42 +48,74 @@ OTHERWISE = {"reference_position_w": "target_w"}
 """What a recording calls otherwise."""
 
 
-def write_replay(recording: Recording, path: Path, page: Path, scene: Scene | None = None) -> Path:
+def write_replay(
+    recording: Recording, path: Path, page: Path, scene: Scene | None = None, others: Sequence[Recording] = ()
+) -> Path:
     """Writes a page, complete or not at all. `page`: the folder of the built studio; `scene`: where it was
-    recorded, else the one that it names, or a plane where that is not to be had.
+    recorded, else the one that it names, or a plane where that is not to be had; `others`: recordings that
+    are shown on the same ground, from their beginnings on.
 
-    Raises `WrongUse` where the studio was not built, or the recording has no tick.
+    Raises `WrongUse` where the studio was not built, a recording has no tick, or they are not of robots that
+    have as many legs.
     """
-    text = replay_page(recording, page, scene)
+    text = replay_page(recording, page, scene, others)
     with fitting(path), whole(path) as draft:
         draft.write_text(text, encoding="utf-8")
     return path
 
 
-def replay_page(recording: Recording, page: Path, scene: Scene | None = None) -> str:
+def replay_page(
+    recording: Recording, page: Path, scene: Scene | None = None, others: Sequence[Recording] = ()
+) -> str:
     """The text of a page."""
     template = page / TEMPLATE
     if not template.is_file():
         raise WrongUse("the studio's page is not built: `gaitwright studio` builds it")
     before, mark, after = template.read_text(encoding="utf-8").partition(PLACE)
     assert mark, "the built page has a place for a recording"
-    data = json.dumps(replay_data(recording.sound(), scene), separators=(",", ":"), allow_nan=False)
+    told = replay_data(recording, scene, others)
+    data = json.dumps(told, separators=(",", ":"), allow_nan=False)
     harmless = data.replace("<", "\\u003c")  # no name in it ends the data, or opens a comment
     return before + mark + harmless + after
 
 
-def replay_data(recording: Recording, scene: Scene | None = None) -> dict[str, Any]:
-    """All that a page shows of a recording, as plain JSON values."""
-    if not len(recording):
-        raise WrongUse("this recording has no moment to show")
+def replay_data(
+    recording: Recording, scene: Scene | None = None, others: Sequence[Recording] = ()
+) -> dict[str, Any]:
+    """All that a page shows of a recording, and of `others` on its ground, as plain JSON values."""
+    check_together(recording, others)
     ground = scene_shown_of(recording) if scene is None else rearranged(scene, recording)
-    step = max(1, round(1.0 / (RATE * recording.dt)), math.ceil(len(recording) / MOST_ROWS))
-    rows = rows_of(recording, step)
-    world = world_shown(ground, [recording.robot], dict(enumerate(ground.boxes)))
+    robots = [one.robot for one in (recording, *others)]
+    world = world_shown(ground, robots, dict(enumerate(ground.boxes)))
     return {
-        "title": f"{recording.robot.name} in {recording.scene or 'a scene'}: {recording.stopped_because}",
+        **story_of(recording.sound()),
         "world": pressed(json.dumps(world, allow_nan=False).encode()),
         "columns": told_columns(recording.robot.n),
+        "movers": moves_of(recording.sound(), ground),
+        "others": [story_of(other.sound()) for other in others],
+    }
+
+
+def check_together(recording: Recording, others: Sequence[Recording]) -> None:
+    """Raises `WrongUse` for recordings that cannot be shown on one page."""
+    if len(others) >= MOST_TOGETHER:
+        raise WrongUse(f"{1 + len(others)} recordings on one page; there can be {MOST_TOGETHER}")
+    for one in others:
+        if one.robot.n != recording.robot.n:
+            raise WrongUse(
+                f"{one.robot.name} has {one.robot.n} legs, and {recording.robot.name} {recording.robot.n}: "
+                "recordings on one page are of robots with as many"
+            )
+
+
+def story_of(recording: Recording) -> dict[str, Any]:
+    """What happened to one robot. Raises `WrongUse` where nothing did."""
+    if not len(recording):
+        raise WrongUse("this recording has no moment to show")
+    step = max(1, round(1.0 / (RATE * recording.dt)), math.ceil(len(recording) / MOST_ROWS))
+    rows = rows_of(recording, step)
+    return {
+        "title": f"{recording.robot.name} in {recording.scene or 'a scene'}: {recording.stopped_because}",
         "drivers": [who_drives(driver) for driver in recording.drivers],
         "rate": 1.0 / (step * recording.dt),
         "count": len(rows),
@@ -89,7 +123,6 @@ def replay_data(recording: Recording, scene: Scene | None = None) -> dict[str, A
         "events": list(events_of(recording)),
         "notes": [note._asdict() for note in recording.notes if note.kind in DONE],
         "report": finite(asdict(recording.report())),
-        "movers": moves_of(recording, ground),
     }
 
 

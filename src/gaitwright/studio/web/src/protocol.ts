@@ -236,11 +236,19 @@ export type Command =
 export type Answer = { done: true; more: Record<string, unknown> } | { done: false; because: string };
 
 /** What a replay page carries in `<script type="application/json" id="recording">`. */
-export interface Embedded {
-  title: string;
+export interface Embedded extends Story {
   /** base64 of deflate-raw-compressed JSON of a `World` */
   world: string;
   columns: Column[];
+  /** where moving things were, time by time */
+  movers?: { time: number; things: Thing[] }[];
+  /** recordings of other robots on the same ground */
+  others?: Story[];
+}
+
+/** What happened to one robot. */
+export interface Story {
+  title: string;
   drivers: string[];
   /** rows per second */
   rate: number;
@@ -249,8 +257,6 @@ export interface Embedded {
   rows: string;
   events: ReplayEvent[];
   report: Record<string, unknown>;
-  /** where moving things were, time by time */
-  movers?: { time: number; things: Thing[] }[];
   /** what a person did meanwhile */
   notes?: ReplayNote[];
 }

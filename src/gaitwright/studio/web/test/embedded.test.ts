@@ -21,7 +21,7 @@ test("a whole recording is read", () => {
 
 test.each([
   ["events", undefined], ["events", [{ skill: "trot" }]], ["drivers", "numerical"], ["world", 3], ["title", null],
-  ["columns", [null]], ["columns", WHOLE.columns.slice(1)], ["rows", undefined], ["movers", [{ time: 0 }]],
+  ["columns", [null]], ["columns", WHOLE.columns.slice(1)], ["rows", undefined], ["movers", [{ time: 0 }]], ["others", [{ title: "x" }]],
 ])("a recording with %s %j says that it lacks them", (name, what) => {
   const found = read(JSON.stringify({ ...WHOLE, [name]: what }));
   expect(found).toBe(`The recording in this page lacks a part: ${name}.`);

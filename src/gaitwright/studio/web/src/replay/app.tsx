@@ -9,6 +9,7 @@ import { switchTheme, theme } from "../shell/theme";
 import { PlotsPanel } from "../plots/panel";
 import { driverColour, skillColour } from "../ui/colours";
 import { Icon } from "../ui/icons";
+import { watched } from "../view/settings";
 import { Stage } from "../view/stage";
 import type { Panel } from "../panels";
 import { clock } from "./clock";
@@ -109,8 +110,9 @@ function Head({ player }: { player: Player }) {
   const status = player.status.value;
   return (
     <>
-      <span class="scene" title={player.recording.title}>
-        {player.recording.title}
+      <span class="scene" title={player.story.value.title}>
+        {player.count > 1 && `${watched.value + 1} of ${player.count} · `}
+        {player.story.value.title}
       </span>
       <div class="authority" data-testid="authority" style={{ "--who": driverColour(status.controller) }}>
         <span class="lamp" />

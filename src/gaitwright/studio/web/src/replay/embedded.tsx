@@ -1,6 +1,6 @@
 // The recording in a replay page: this one's, or another one's that was dropped onto it.
 
-import type { Embedded } from "../protocol";
+import type { Embedded, Story } from "../protocol";
 import type { Clock } from "./clock";
 import { Player } from "./player";
 
@@ -39,21 +39,32 @@ export function read(text: string): Embedded | string {
   return missing ? `The recording in this page lacks a part: ${missing}.` : (found as Embedded);
 }
 
+const areTimed = (all: unknown): boolean => Array.isArray(all) && all.every((one) => Number.isFinite(one?.time));
+
 /** The first part that is not there, or not of its kind; "": none. */
 function lacks(found: Partial<Embedded>): string {
-  const { title, world, columns, rows, count, rate, drivers, events, movers = [], notes = [] } = found;
-  const areTimed = (all: unknown): boolean => Array.isArray(all) && all.every((one) => Number.isFinite(one?.time));
+  const { world, columns, movers = [], others = [] } = found;
   const areColumns = Array.isArray(columns) && columns.every((one) => typeof one?.name === "string" && one.size > 0);
   const parts: Record<string, boolean> = {
-    title: typeof title === "string",
     world: typeof world === "string",
     columns: areColumns && NEEDED.every((name) => columns.some((column) => column.name === name)),
+    movers: areTimed(movers) && movers.every(({ things }) => Array.isArray(things)),
+    others: Array.isArray(others) && others.every((story) => !lacksOfStory(story ?? {})),
+  };
+  return lacksOfStory(found) || missing(parts);
+}
+
+function lacksOfStory({ title, rows, count, rate, drivers, events, notes = [] }: Partial<Story>): string {
+  return missing({
+    title: typeof title === "string",
     rows: typeof rows === "string" && Number(count) > 0 && Number(rate) > 0,
     drivers: Array.isArray(drivers),
     events: areTimed(events),
-    movers: areTimed(movers) && movers.every(({ things }) => Array.isArray(things)),
     notes: areTimed(notes),
-  };
+  });
+}
+
+function missing(parts: Record<string, boolean>): string {
   return Object.keys(parts).find((name) => !parts[name]) ?? "";
 }
 

@@ -1,12 +1,14 @@
-// A recording as a source: what a live studio tells, from its rows and events.
+// Recordings as a source: what a live studio tells, from their rows and events. Of several, on one ground, each
+// begins at time 0, and the one that is watched is told about.
 
 import { computed, type ReadonlySignal, signal } from "@preact/signals";
 import { Blend } from "../blend";
 import { fromBase64 } from "../bytes";
 import { History } from "../history";
 import { Layout } from "../layout";
-import type { Answer, Box, Embedded, Hello, Moved, ReplayEvent, Role, Status, World } from "../protocol";
+import type { Answer, Box, Embedded, Hello, Moved, ReplayEvent, Role, Status, Story, World } from "../protocol";
 import type { Link, Source } from "../source";
+import { watched } from "../view/settings";
 import type { Clock } from "./clock";
 
 const nothing: ReadonlySignal<null> = signal(null);
@@ -33,66 +35,71 @@ export class Player implements Source {
   readonly recordings = nothing;
   readonly refusal = signal("");
   readonly beat: ReadonlySignal<number>;
-  readonly count = 1;
+  readonly count: number;
+  /** What happened to the robot that is watched. */
+  readonly story: ReadonlySignal<Story>;
   /** The event that holds now. */
   readonly event: ReadonlySignal<ReplayEvent | null>;
   private readonly blend: Blend;
-  private readonly rows: History;
+  private readonly rows: History[];
 
-  constructor(readonly recording: Embedded, world: World, data: Float32Array, private readonly clock: Clock) {
+  constructor(readonly recording: Embedded, world: World, tracks: Track[], private readonly clock: Clock) {
     const layout = new Layout(recording.columns);
     this.layout = signal(layout);
     this.world = signal(world);
     this.boxes = signal(world.boxes);
     this.blend = new Blend(layout);
-    const count = Math.min(recording.count, Math.floor(data.length / layout.width));
-    this.rows = new History(layout.width, layout.at("time"), Infinity, Math.max(1, count));
-    for (let k = 0; k < count; k++) this.rows.add(data.subarray(k * layout.width, (k + 1) * layout.width));
+    this.count = tracks.length;
+    this.rows = tracks.map(({ story, data }) => rowsOf(layout, data, story.count));
+    this.story = computed(() => (tracks[watched.value] ?? tracks[0]).story);
     this.hello = signal(helloOf(recording));
     this.beat = clock.time;
-    const place = computed(() => lastBefore(recording.events, clock.time.value));
-    this.event = computed(() => recording.events[place.value] ?? null);
+    const place = computed(() => lastBefore(this.story.value.events, clock.time.value));
+    this.event = computed(() => this.story.value.events[place.value] ?? null);
     const movers = recording.movers ?? [];
     const moment = computed(() => (movers.length ? lastBefore(movers, clock.time.value) : -1));
     this.moved = computed(() => (moment.value < 0 ? null : { say: "moved", things: movers[moment.value].things }));
-    this.status = computed(() => statusOf(this.event.value, recording.drivers, world.goal));
+    this.status = computed(() => statusOf(this.event.value, this.story.value.drivers, world.goal));
   }
 
   /** Unpacks a recording. */
   static async of(found: Embedded, clock: Clock): Promise<Player> {
-    const whole = await unpacked(found.rows).arrayBuffer();
-    const data = new Float32Array(whole, 0, whole.byteLength >> 2);
+    const layout = new Layout(found.columns);
     const world = (await unpacked(found.world).json()) as World;
-    if (data.length < new Layout(found.columns).width || !world.robots?.length) throw new Error("nothing to play");
-    return new Player(fromZero(found, data), world, data, clock);
+    const stories: Story[] = [found, ...(found.others ?? [])];
+    if (world.robots?.length !== stories.length) throw new Error("not a robot for each recording");
+    const tracks = await Promise.all(stories.map((story) => trackOf(story, layout)));
+    const movers = found.movers?.map(earlier(tracks[0].begins));
+    return new Player({ ...found, movers }, world, tracks, clock);
   }
 
   get duration(): number {
-    return this.rows.last();
+    return Math.max(...this.rows.map((rows) => rows.last()));
   }
 
   now(): number {
     return this.clock.time.peek();
   }
 
-  latest(): Float32Array | null {
-    if (!this.rows.count) return null;
-    return this.rows.row(Math.min(this.rows.count - 1, this.rows.from(this.now())));
+  latest(robot = 0): Float32Array | null {
+    const rows = this.rows[robot];
+    return rows?.count ? rows.row(Math.min(rows.count - 1, rows.from(this.now()))) : null;
   }
 
   sample(robot: number, _now: number, out: Float32Array): boolean {
-    if (robot !== 0 || !this.rows.count) return false;
+    const rows = this.rows[robot];
+    if (!rows?.count) return false;
     const time = this.now();
-    const after = Math.min(this.rows.count - 1, this.rows.from(time));
+    const after = Math.min(rows.count - 1, rows.from(time));
     const before = Math.max(0, after - 1);
-    const span = this.rows.time(after) - this.rows.time(before);
-    const share = span > 0 ? Math.max(0, Math.min(1, (time - this.rows.time(before)) / span)) : 1;
-    this.blend.into(out, this.rows.row(before), this.rows.row(after), share);
+    const span = rows.time(after) - rows.time(before);
+    const share = span > 0 ? Math.max(0, Math.min(1, (time - rows.time(before)) / span)) : 1;
+    this.blend.into(out, rows.row(before), rows.row(after), share);
     return true;
   }
 
   history(robot: number): History | null {
-    return robot === 0 ? this.rows : null;
+    return this.rows[robot] ?? null;
   }
 
   send(): Promise<Answer> {
@@ -110,15 +117,35 @@ function unpacked(packed: string): Response {
   return new Response(stream.pipeThrough(new DecompressionStream("deflate-raw")));
 }
 
-/** The recording with its own beginning as time 0, its rows too: of two, both begin at once. */
-function fromZero(recording: Embedded, data: Float32Array): Embedded {
-  const { columns, events, movers, notes } = recording;
-  const layout = new Layout(columns);
+/** A recording with its own beginning as time 0, and its rows: of several, all begin at once. */
+interface Track {
+  story: Story;
+  data: Float32Array;
+  /** Its beginning, in its own time [s]. */
+  begins: number;
+}
+
+async function trackOf(found: Story, layout: Layout): Promise<Track> {
+  const whole = await unpacked(found.rows).arrayBuffer();
+  const data = new Float32Array(whole, 0, whole.byteLength >> 2);
+  if (data.length < layout.width) throw new Error("nothing to play");
   const at = layout.at("time");
   const begins = data[at] || 0;
   for (let k = at; k < data.length; k += layout.width) data[k] -= begins;
-  const shift = <T extends { time: number }>(one: T): T => ({ ...one, time: Math.max(0, one.time - begins) });
-  return { ...recording, events: events.map(shift), movers: movers?.map(shift), notes: notes?.map(shift) };
+  const story = { ...found, events: found.events.map(earlier(begins)), notes: found.notes?.map(earlier(begins)) };
+  return { story, data, begins };
+}
+
+/** Moves what has a time to so much earlier [s]. */
+function earlier(by: number): <T extends { time: number }>(one: T) => T {
+  return (one) => ({ ...one, time: Math.max(0, one.time - by) });
+}
+
+function rowsOf(layout: Layout, data: Float32Array, told: number): History {
+  const count = Math.min(told, Math.floor(data.length / layout.width));
+  const rows = new History(layout.width, layout.at("time"), Infinity, Math.max(1, count));
+  for (let k = 0; k < count; k++) rows.add(data.subarray(k * layout.width, (k + 1) * layout.width));
+  return rows;
 }
 
 /** Place of the last of some that are in order of time, not after a time; the first where all are later. */

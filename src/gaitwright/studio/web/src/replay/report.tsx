@@ -6,7 +6,7 @@ import { Player } from "./player";
 
 export function Report({ source }: { source: Source }) {
   if (!(source instanceof Player)) return null;
-  const entries = Object.entries(source.recording.report ?? {});
+  const entries = Object.entries(source.story.value.report ?? {});
   if (!entries.length) return <p class="faint nothing">no figures came with it</p>;
   return (
     <table class="report" data-testid="report">

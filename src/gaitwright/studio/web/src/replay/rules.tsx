@@ -9,7 +9,7 @@ import { stretches } from "./stretches";
 
 export function RulesOverTime({ source }: { source: Source }) {
   if (!(source instanceof Player)) return null;
-  const { events, notes = [] } = source.recording;
+  const { events, notes = [] } = source.story.value;
   const now = source.event.value;
   const end = source.duration;
   const names = [...new Set(events.map(({ rule }) => rule).filter(Boolean))];

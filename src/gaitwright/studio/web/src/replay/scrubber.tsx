@@ -58,7 +58,7 @@ function Track({ players }: { players: Player[] }) {
 }
 
 function Bands({ player, duration }: { player: Player; duration: number }) {
-  const { events, notes } = player.recording;
+  const { events, notes } = player.story.value;
   const end = player.duration;
   const bands = (key: "skill" | "driver", colour: (name: string) => string) =>
     stretches(events, key, end).map(({ name, from, to }) => (
