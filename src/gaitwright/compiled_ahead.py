@@ -2,7 +2,8 @@
 
 numba compiles in one thread. What the numerical controller and the watch are made of is known before
 anything moves; so while a run compiles what comes before them, `python -m gaitwright.compiled_ahead` compiles
-these, and the run finds them done (`numerics.compiled.alone`).
+these, and the run finds them done (`numerics.compiled.alone`). After that it compiles what other drivers
+need, which may be asked for later.
 """
 
 import subprocess
@@ -13,9 +14,13 @@ import numpy as np
 
 from gaitwright.control.numerical import NumericalController
 from gaitwright.description.load import load_robot
+from gaitwright.ground.scene import load_scene
+from gaitwright.locomotion import Brain
 from gaitwright.numerics.compiled import is_warm
 from gaitwright.perception.watch import Watch
-from gaitwright.signals import Measured, MotionTarget
+from gaitwright.plant.mujoco.simulation import MujocoPlant
+from gaitwright.session import walk
+from gaitwright.signals import Measured, Mission, MotionTarget
 from gaitwright.workers import cores
 
 
@@ -43,5 +48,13 @@ def compile_control() -> None:
     watch.check(measured, measured, watch.heard(memory, target, command, measured))
 
 
+def compile_drivers() -> None:
+    """Some ticks of a walk by drivers that do not solve the dynamics."""
+    robot, scene = load_robot("go2"), load_scene("flat")
+    for driver in ("kinematic", "programmed"):
+        walk(Brain.of(robot, scene), MujocoPlant(robot, scene), Mission(((1.0, 0.0),), driver=driver), 0.02)
+
+
 if __name__ == "__main__":
     compile_control()
+    compile_drivers()

@@ -13,7 +13,7 @@ from gaitwright.ground.terrain import Box
 from gaitwright.learning.equipped import equipped
 from gaitwright.learning.live_sources import Running
 from gaitwright.learning.profile_books import playable
-from gaitwright.locomotion import Brain, Lap, think
+from gaitwright.locomotion import Brain, Lap
 from gaitwright.missions import Steering
 from gaitwright.model.camera import Camera
 from gaitwright.model.robot import Robot
@@ -102,14 +102,11 @@ class LiveRun:
         return session
 
     def warm_up(self) -> None:
-        """Plans a way and thinks as every driver, and does nothing of it: what is compiled at a first time is
-        compiled now, and not when a person waits for it."""
+        """Plans a way and does not go it: what is compiled at a first time is compiled now, and not when a
+        person waits for it."""
         session, (x, y, _) = self.session, self.sensed.position_w.tolist()
         ahead = Mission(((x + 0.5, y),), driver=self.driver)
         session.brain.begin(ahead, session.measured, before=session.mind)
-        for driver in session.brain.controllers:
-            call = replace(session.mind.call, driver=driver)
-            think(session.brain, session.mind._replace(call=call), session.measured)
 
     def step(self) -> Lap | None:
         """One lap; `None` where the run is over and the robot was let down."""
