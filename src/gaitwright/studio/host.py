@@ -16,6 +16,7 @@ import msgspec
 
 from gaitwright import compiled_ahead
 from gaitwright.errors import GaitwrightError
+from gaitwright.numerics.compiled import is_warm
 from gaitwright.session import DT
 from gaitwright.skillbook.book import Skillbook
 from gaitwright.skillbook.writer import open_for_learning
@@ -28,6 +29,7 @@ FRAMES, STATUSES, SCANS, MAPS = 60.0, 10.0, 10.0, 2.0
 """So many a second."""
 BUSY = 0.012
 """Longest stretch of laps without a look at what is asked, and of what is asked without a lap [s]."""
+FIRST_RUN = "compiling, at a first run only: about a minute …"
 BEHIND = 0.1
 """What is owed beyond this is dropped: a slow machine walks slower, and does not try to catch up [s]."""
 
@@ -35,15 +37,18 @@ BEHIND = 0.1
 def host(pipe: Ends, setup: Setup, book: Path, folder: Path, begins: bool) -> None:
     """Runs until the other end of the pipe is gone; says why where it cannot."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # for the server to act on: it closes the pipe
+    cold = not is_warm()
     compiled_ahead.begin()
     try:
+        if cold:
+            tell(pipe, EVERYBODY, {"say": "waits", "because": FIRST_RUN})
         if begins and not book.exists():
             folder.mkdir(parents=True, exist_ok=True)
             Skillbook.new(FOREST, setup.robot, book.stem, setup.seed).save(book)
         with open_for_learning(book) as ledger:
             room = Room(setup, ledger, folder, lambda said: tell(pipe, EVERYBODY, said))
             try:
-                Clock(room, pipe).run()
+                Clock(room, pipe, cold).run()
             finally:
                 room.close()
     except Gone:  # nobody is left to tell
@@ -69,8 +74,9 @@ def fault_of(error: Exception) -> str:
 class Clock:
     """Gives a room its time: laps as they are due, and what is told of them."""
 
-    def __init__(self, room: Room, pipe: Ends) -> None:
-        self.room, self.pipe = room, pipe
+    def __init__(self, room: Room, pipe: Ends, is_waited_for: bool = False) -> None:
+        """`is_waited_for`: whether everybody was told so, until it moves."""
+        self.room, self.pipe, self.is_waited_for = room, pipe, is_waited_for
         self.sequence = 0
         self.owed = 0.0
         """Simulated time that is due [s]."""
@@ -87,6 +93,9 @@ class Clock:
             now = time.monotonic()
             passed, before = now - before, now
             walked = self.walk(passed)
+            if walked and self.is_waited_for:
+                self.is_waited_for = False
+                tell(self.pipe, EVERYBODY, {"say": "waits", "because": ""})
             self.tell_what_is_due(time.monotonic())
             if not walked:
                 self.pipe.poll(0.004)  # until somebody says something

@@ -18,7 +18,10 @@ from gaitwright.errors import WrongUse
 from gaitwright.studio.messages import Anyone, Release, Reset, Take, id_of, message_of
 
 MOST_ANSWERS, MOST_WATCHERS = 256, 64
-KINDS = ("hello", "world", "boxes", "rules", "status", "scan", "seen", "moved", "curve", "tried", "closed")
+KINDS = (
+    "waits", "hello", "world", "boxes", "rules", "status", "scan", "seen", "moved", "curve", "tried",
+    "closed",
+)  # fmt: skip
 """Of what is said to everybody, one who comes later is told the last of each of these, in this order."""
 OF_A_RUN = ("scan", "seen", "moved", "tried")
 APART, MOST_PAST = 4.0, 60

@@ -6,7 +6,7 @@ import { History } from "./history";
 import { Layout } from "./layout";
 import type {
   Answer, Box, Command, Curves, FromServer, Hello, Moved, Proposed, Recordings, Remark, Role, Rules, Scan, Seen,
-  Status, World,
+  Status, Waits, World,
 } from "./protocol";
 import { Smooth } from "./smooth";
 import type { Link, Source } from "./source";
@@ -59,6 +59,7 @@ export class Live implements Source {
   readonly tried = signal<Proposed | null>(null);
   readonly recordings = signal<Recordings | null>(null);
   readonly remark = signal<Remark | null>(null);
+  readonly waits = signal<Waits | null>(null);
   readonly refusal = signal("");
   readonly layout = signal<Layout | null>(null);
   readonly beat = signal(0);
@@ -75,6 +76,7 @@ export class Live implements Source {
     tried: this.tried,
     recordings: this.recordings,
     remark: this.remark,
+    waits: this.waits,
   };
   private socket: WebSocket | null = null;
   private smooth: Smooth | null = null;

@@ -96,6 +96,12 @@ export interface Boxes {
 }
 
 /** Something that happened, in a sentence. */
+/** Why there is no robot to be seen yet; "": there is. */
+export interface Waits {
+  say: "waits";
+  because: string;
+}
+
 export interface Remark {
   say: "remark";
   sentence: string;
@@ -202,7 +208,7 @@ export interface Refused {
 }
 
 export type FromServer =
-  | Hello | Role | Closed | World | Boxes | Remark | Status | Moved | Scan | Seen | Rules | Curves | Proposed
+  | Hello | Role | Closed | World | Boxes | Remark | Waits | Status | Moved | Scan | Seen | Rules | Curves | Proposed
   | Recordings | Done | Refused;
 
 export type Command =

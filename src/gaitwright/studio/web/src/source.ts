@@ -4,7 +4,7 @@ import type { ReadonlySignal } from "@preact/signals";
 import type { History } from "./history";
 import type { Layout } from "./layout";
 import type {
-  Answer, Box, Command, Curves, Hello, Moved, Proposed, Recordings, Remark, Role, Rules, Scan, Seen, Status, World,
+  Answer, Box, Command, Curves, Hello, Moved, Proposed, Recordings, Remark, Role, Rules, Scan, Seen, Status, Waits, World,
 } from "./protocol";
 
 export type Link = "connecting" | "open" | "lost";
@@ -34,6 +34,8 @@ export interface Source {
   readonly recordings: ReadonlySignal<Recordings | null>;
   /** What happened last, for the bar below. */
   readonly remark: ReadonlySignal<Remark | null>;
+  /** What the robot is waited for because of, before it moves. */
+  readonly waits: ReadonlySignal<Waits | null>;
   /** The last refusal, for the bar below; "" where there is none. */
   readonly refusal: ReadonlySignal<string>;
 

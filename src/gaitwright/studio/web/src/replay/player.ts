@@ -31,6 +31,7 @@ export class Player implements Source {
   readonly rules = nothing;
   readonly tried = nothing;
   readonly remark = nothing;
+  readonly waits = nothing;
   readonly curve = nothing;
   readonly recordings = nothing;
   readonly refusal = signal("");

@@ -74,7 +74,17 @@ export function Stage({ source, tools }: { source: Source; tools?: Tools }) {
           This browser shows no 3-D (WebGL is off); all else works.
         </p>
       )}
-      {!blind && !source.world.value && <p class="waiting">waiting for the world …</p>}
+      {!blind && <Waiting source={source} />}
     </div>
   );
+}
+
+/** What is waited for, as long as something is. */
+function Waiting({ source }: { source: Source }) {
+  const because = source.waits.value?.because || (source.world.value ? "" : "waiting for the world …");
+  return because ? (
+    <p class="waiting" data-testid="waiting">
+      {because}
+    </p>
+  ) : null;
 }
