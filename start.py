@@ -100,8 +100,8 @@ def check(*names):
         if name not in CHECKS:
             sys.exit("start.py: no check '{}'; there is: {}".format(name, ", ".join(CHECKS)))
     if not names:  # kernels are compiled meanwhile, on another core
-        quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-        subprocess.Popen([str(BIN / "gaitwright"), *COMPILES], **quiet)
+        ahead, quiet = [str(BIN / "gaitwright"), *COMPILES], subprocess.DEVNULL
+        subprocess.Popen(ahead, stdout=quiet, stderr=quiet)
     failed = [name for name in names or CHECKS if run(*CHECKS[name])]
     if failed:
         print("==> FAILED: " + ", ".join(failed), flush=True)
