@@ -166,14 +166,20 @@ def studio(page_is_built: None, tmp_path_factory: pytest.TempPathFactory) -> Ite
     running.close()
 
 
-@pytest.fixture
-def line(studio: Studio) -> Iterator[Line]:
-    """One who drives it, from its start."""
+def begun(studio: Studio, scene: str) -> Line:
+    """One who drives a Go2, from its start in a scene."""
     line = studio.line()
     line.done(do="take")
     line.done(do="resume")
     line.done(do="mode", mode="plan")
-    line.done(do="reset", robot="go2", scene="blocks", seed=0, sight="known", driver="hybrid")
+    line.done(do="reset", robot="go2", scene=scene, seed=0, sight="known", driver="hybrid")
+    return line
+
+
+@pytest.fixture
+def line(studio: Studio) -> Iterator[Line]:
+    """One who drives it among blocks."""
+    line = begun(studio, "blocks")
     yield line
     close(line.socket)
 

@@ -13,11 +13,6 @@ from gaitwright.studio.room import Room
 
 
 @pytest.fixture
-def said() -> list[dict]:
-    return []
-
-
-@pytest.fixture
 def room(tmp_path: Path, said: list[dict]) -> Iterator[Room]:
     with opened(tmp_path, said) as room:
         room.hears(m.Skill(name="trot"))

@@ -16,11 +16,6 @@ from gaitwright.studio.setup import Setup
 
 
 @pytest.fixture
-def said() -> list[dict]:
-    return []
-
-
-@pytest.fixture
 def room(tmp_path: Path, said: list[dict]):
     book = tmp_path / "studio.skills"
     Skillbook.new(FOREST, "go2", "studio", 0).save(book)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from page_fixtures import Line, Studio, close
+from page_fixtures import Line, Studio, begun, close
 from PIL import Image
 
 pytestmark = pytest.mark.xdist_group("studio")
@@ -29,11 +29,7 @@ def opened(studio: Studio, browser: Any) -> Iterator[tuple[Any, list[str]]]:
 @pytest.fixture
 def watch(studio: Studio) -> Iterator[Line]:
     """One who sees what the server says, after it was told to begin anew."""
-    watch = studio.line()
-    watch.done(do="take")
-    watch.done(do="resume")
-    watch.done(do="mode", mode="plan")
-    watch.done(do="reset", robot="go2", scene="flat", seed=0, sight="known", driver="hybrid")
+    watch = begun(studio, "flat")
     yield watch
     close(watch.socket)
 

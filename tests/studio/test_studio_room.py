@@ -23,11 +23,6 @@ from gaitwright.studio.setup import DRIVERS, Setup
 
 
 @pytest.fixture
-def said() -> list[dict]:
-    return []
-
-
-@pytest.fixture
 def room(tmp_path: Path, said: list[dict]) -> Iterator[Room]:
     with opened(tmp_path, said) as room:
         yield room

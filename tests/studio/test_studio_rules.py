@@ -21,11 +21,6 @@ def over() -> Operator:
 
 
 @pytest.fixture
-def said() -> list[dict]:
-    return []
-
-
-@pytest.fixture
 def room(tmp_path: Path, said: list[dict]) -> Iterator[Room]:
     with opened(tmp_path, said, "flat", [over()]) as room:
         yield room
