@@ -16,6 +16,7 @@ from gaitwright.record.metrics import Report
 from gaitwright.record.recording import load
 from gaitwright.skillbook.book import Skillbook
 from gaitwright.skills.library import skill_names
+from gaitwright.studio.replay import PLACE, TEMPLATE
 
 KEYS = {
     "arrived", "falls", "duration_s", "distance_m", "speed_mean_mps", "velocity_error_mps",
@@ -150,10 +151,18 @@ def test_a_folder_with_files_in_it_is_left_alone(tmp_path: Path, capsys: pytest.
 
 
 # --- files -----------------------------------------------------------------------------------------
-def test_a_run_leaves_picture_recordings_and_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+def test_a_run_leaves_picture_recordings_and_report(
+    tmp_path: Path,
+    tmp_path_factory: pytest.TempPathFactory,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+):
+    page = tmp_path_factory.mktemp("page")
+    (page / TEMPLATE).write_text(f"<html>{PLACE}</script></html>", encoding="utf-8")
+    monkeypatch.setattr(trips, "built_page", lambda: page)
     assert main([*SKILL, "--json", "a.json", "--out", "run"]) == 0
     names = {path.name for path in (tmp_path / "run").iterdir()}
-    assert names == {"trip.png", "recording.npz", "recording.mcap", "report.json"}
+    assert names == {"trip.png", "recording.npz", "recording.mcap", "replay.html", "report.json"}
     assert (tmp_path / "a.json").read_text() == (tmp_path / "run" / "report.json").read_text()
     shown = capsys.readouterr().out
     assert [name for name in names if f"run/{name}" not in shown] == []
@@ -208,6 +217,7 @@ def test_a_missing_extra_is_a_line_not_a_failure(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ):
     monkeypatch.setattr(trips, "find_spec", lambda module: None)
+    monkeypatch.setattr(trips, "built_page", lambda: None)
     assert main([*SKILL, "--out", "run"]) == 0
     assert {path.name for path in (tmp_path / "run").iterdir()} == {"recording.npz", "report.json"}
     assert "the picture is left out: it needs `pip install 'gaitwright[plot]'`" in capsys.readouterr().err
