@@ -36,4 +36,4 @@ def test_where_all_is_compiled_nobody_is_begun(monkeypatch: pytest.MonkeyPatch):
     assert not begun, "on one core it would only be slower"
     monkeypatch.setattr(compiled_ahead, "cores", lambda: 2)
     compiled_ahead.begin()
-    assert begun == [([sys.executable, "-m", "gaitwright.compiled_ahead"],)]
+    assert begun == [([sys.executable, "-P", "-m", "gaitwright.compiled_ahead"],)]

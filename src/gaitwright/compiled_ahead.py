@@ -28,7 +28,7 @@ def begin() -> None:
     """Begins it, where there is something to compile and a core for it; nobody waits for its end."""
     if is_warm() or cores() < 2:
         return
-    command, quiet = [sys.executable, "-m", "gaitwright.compiled_ahead"], subprocess.DEVNULL
+    command, quiet = [sys.executable, "-P", "-m", "gaitwright.compiled_ahead"], subprocess.DEVNULL
     with suppress(OSError):  # then the run does it all
         subprocess.Popen(command, stdin=quiet, stdout=quiet, stderr=quiet)
 

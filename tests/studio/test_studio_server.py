@@ -163,18 +163,11 @@ def test_it_keeps_what_was_recorded_when_it_is_told_to_end(page_is_built: None, 
     ],
 )
 def test_what_cannot_be_opened_is_told_in_a_sentence(page_is_built: None, tmp_path, options, code, sentence):
-    command = [
-        sys.executable,
-        "-m",
-        "gaitwright",
-        "studio",
-        "--no-browser",
-        "--port",
-        "0",
-        "--out",
-        str(tmp_path),
-    ]
-    done = subprocess.run([*command, *options], capture_output=True, text=True, timeout=120.0, check=False)
+    (tmp_path / "re.py").write_text("raise SystemExit('a file of the folder was run')")
+    words = ["-P", "-m", "gaitwright", "studio", "--no-browser", "--port", "0", "--out", ".", *options]
+    done = subprocess.run(
+        [sys.executable, *words], cwd=tmp_path, capture_output=True, text=True, timeout=120.0, check=False
+    )
     assert done.returncode == code and sentence in done.stderr, done.stderr
     assert "Traceback" not in done.stderr
 

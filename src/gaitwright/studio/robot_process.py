@@ -4,8 +4,10 @@ Quick to import: it is the first thing that a studio begins, since a robot takes
 """
 
 import multiprocessing
+import os
 import threading
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 from queue import Full, Queue
@@ -16,6 +18,7 @@ from gaitwright.studio.setup import FROM, Ends, Gone, Setup, begin
 
 WRITES, SETTLES = 120.0, 3.0
 """It may take so long to end where it has a recording to write, and where it is begun anew [s]."""
+SAFE_PATH = "PYTHONSAFEPATH"
 MOST_WAITING = 1000
 """So much may be asked that it has not heard yet."""
 
@@ -40,7 +43,8 @@ class RobotProcess:
         arguments = (theirs, self.setup, str(self.book), str(self.folder), self.begins)
         context = multiprocessing.get_context("spawn")
         self.process = context.Process(target=begin, args=arguments, daemon=True)
-        self.process.start()
+        with safe_path():
+            self.process.start()
         for end in theirs:
             end.close()
         self.asked = Queue[bytes | None](MOST_WAITING)
@@ -69,6 +73,20 @@ class RobotProcess:
         if self.process.is_alive():
             self.process.kill()
             self.process.join(SETTLES)
+
+
+@contextmanager
+def safe_path() -> Iterator[None]:
+    """Processes that are begun meanwhile take no file of the folder that one is in for a module."""
+    before = os.environ.get(SAFE_PATH)
+    os.environ[SAFE_PATH] = "1"
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[SAFE_PATH]
+        else:
+            os.environ[SAFE_PATH] = before
 
 
 def hand_on(asked: "Queue[bytes | None]", ends: Ends) -> None:

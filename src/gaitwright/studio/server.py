@@ -120,7 +120,7 @@ async def taken_home(shelf: Shelf, name: str, making: asyncio.Lock) -> Path:
 
 async def made(source: Path, out: Path) -> None:
     """Makes another form of a recording. Raises `WrongUse` where it cannot be made."""
-    command = [sys.executable, "-m", "gaitwright", "replay", str(source), "--out", str(out)]
+    command = [sys.executable, "-P", "-m", "gaitwright", "replay", str(source), "--out", str(out)]
     nobody = asyncio.subprocess.DEVNULL
     process = await asyncio.create_subprocess_exec(*command, stdout=nobody, stderr=asyncio.subprocess.PIPE)
     _, said = await process.communicate()
