@@ -29,6 +29,8 @@ class RobotProcess:
     def __init__(self, setup: Setup, book: Path, folder: Path, begins: bool = False) -> None:
         """`folder`: for recordings; `begins`: whether a book that is not there is begun."""
         self.setup, self.book, self.folder, self.begins = setup, book, folder, begins
+        self.has_begun = False
+        """Whether there is a run, of which something may have been recorded."""
         self.begin()
 
     def __enter__(self) -> "RobotProcess":
@@ -65,8 +67,10 @@ class RobotProcess:
         except Full:
             raise WrongUse("the robot's process does not answer: a reset begins another") from None
 
-    def end(self, patience: float = WRITES) -> None:
-        """Ends it; it keeps what was recorded."""
+    def end(self, patience: float | None = None) -> None:
+        """Ends it; it keeps what was recorded, unless that takes longer than `patience` [s]."""
+        if patience is None:
+            patience = WRITES if self.has_begun else SETTLES
         with suppress(Full):
             self.asked.put_nowait(None)
         self.process.join(patience if self.process.is_alive() else 0.0)

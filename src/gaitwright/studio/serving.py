@@ -79,7 +79,7 @@ async def served(robot: RobotProcess, what: Serving, place: socket.socket) -> Hu
         if run != runs:  # of one that was given up
             return
         hub.told(who, said)
-        began = began or "hello" in hub.last
+        began = robot.has_begun = began or "hello" in hub.last
         server.should_exit = server.should_exit or (hub.closed and not began)
 
     def attend() -> None:
@@ -97,7 +97,9 @@ async def served(robot: RobotProcess, what: Serving, place: socket.socket) -> Hu
     hub = Hub(robot.ask, restart)
     hosts = LOOPBACK | {what.address.lower()}
     app = application(hub, what.page, Shelf(what.folder), what.token, hosts, what.ticket)
-    config = uvicorn.Config(app, log_level="warning", ws_max_size=MOST_BYTES, timeout_graceful_shutdown=1)
+    config = uvicorn.Config(
+        app, log_level="warning", lifespan="off", ws_max_size=MOST_BYTES, timeout_graceful_shutdown=1
+    )
     server = uvicorn.Server(config)
     attend()
     await server.serve([place])
