@@ -149,7 +149,10 @@ def test_it_keeps_what_was_recorded_when_it_is_told_to_end(page_is_built: None, 
     line = studio.line()
     line.done(do="record", on=True)
     line.status(lambda said: said["recording"] and said["time"] > 0.5)
+    studio.process.send_signal(signal.SIGINT)
+    time.sleep(0.2)  # and again, as one who thinks that it was not heard
     assert studio.close() == 0
+    assert "Traceback" not in (tmp_path / "errors.txt").read_text()
     (kept,) = tmp_path.glob("*.npz")
     assert len(load(kept)) > 50
 

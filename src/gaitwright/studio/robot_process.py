@@ -73,7 +73,10 @@ class RobotProcess:
             patience = WRITES if self.has_begun else SETTLES
         with suppress(Full):
             self.asked.put_nowait(None)
-        self.process.join(patience if self.process.is_alive() else 0.0)
+        try:
+            self.process.join(patience if self.process.is_alive() else 0.0)
+        except KeyboardInterrupt:  # who is impatient waits a little longer for what was recorded
+            self.process.join(SETTLES)
         if self.process.is_alive():
             self.process.kill()
             self.process.join(SETTLES)
