@@ -24,13 +24,17 @@ from gaitwright.signals import Measured, Mission, MotionTarget
 from gaitwright.workers import cores
 
 
-def begin() -> None:
-    """Begins it, where there is something to compile and a core for it; nobody waits for its end."""
-    if is_warm() or cores() < 2:
-        return
+def begin() -> bool:
+    """Whether there is something to compile; then it is begun where there is a core for it, and nobody waits
+    for its end."""
+    if is_warm():
+        return False
+    if cores() < 2:
+        return True
     command, quiet = [sys.executable, "-P", "-m", "gaitwright.compiled_ahead"], subprocess.DEVNULL
     with suppress(OSError):  # then the run does it all
         subprocess.Popen(command, stdin=quiet, stdout=quiet, stderr=quiet)
+    return True
 
 
 def compile_control() -> None:

@@ -32,8 +32,13 @@ def opened(
 def kept(room: Room) -> Path:
     """The file of what was recorded up to now."""
     name = room.hears(m.Record(on=False))["recording"]
-    room.recording.settle()
+    settle(room)
     return room.recording.shelf.path(name)
+
+
+def settle(room: Room) -> None:
+    """Returns when what was recorded is written, as far as it can be."""
+    room.recording.writer.submit(lambda: None).result()
 
 
 def laps(room: Room, seconds: float) -> None:

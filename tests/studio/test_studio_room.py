@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rooms import kept, laps, opened
+from rooms import kept, laps, opened, settle
 
 from gaitwright.errors import GaitwrightError, NoRoom, WrongUse
 from gaitwright.record.metrics import digest
@@ -210,7 +210,7 @@ def test_a_recording_that_cannot_be_written_is_not_lost(room: Room, said: list[d
     room.hears(m.Record(on=True))
     laps(room, 0.2)
     room.hears(m.Record(on=False))
-    room.recording.settle()
+    settle(room)
     room.status()
     assert any("could not be written" in str(one.get("sentence")) for one in said)
     room.recording.shelf.folder = good

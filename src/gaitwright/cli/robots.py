@@ -19,7 +19,6 @@ from gaitwright.description.load import load_robot, load_robot_and_notes
 from gaitwright.errors import BadFile
 from gaitwright.model.catalogue import ROBOTS
 from gaitwright.model.robot import Robot
-from gaitwright.numerics.compiled import is_warm
 from gaitwright.screen import Cell, paragraph, screen, show, width_of
 
 HEAD = ("name", "legs", "mass", "height", "leg", "torque limits", "about")
@@ -81,9 +80,8 @@ def row(fact: dict) -> tuple[str, ...]:
 def check(args: Namespace) -> int:
     """Examines one robot; 0: it stands, walks and trots, 1: it does not."""
     robot, notes = found(args.check, args.package)
-    if not is_warm():
+    if compiled_ahead.begin():
         remark("compiling kernels (first run only, up to two minutes) …")
-        compiled_ahead.begin()
     with told_now_and_then() as tell:
         findings = suitability(robot, notes, tell)
     sentence, good = summary(robot, findings), runs(findings)

@@ -18,6 +18,7 @@ from gaitwright.record.notes import MOST_LETTERS, MOST_NOTES, Note
 
 MOST_LEGS = 16
 MOST_BOXES = 2500
+"""Of a scene that a person arranges."""
 LARGEST = 1e6
 """No number of a robot is as large as this, in SI units."""
 BLOWN_UP = 1e12

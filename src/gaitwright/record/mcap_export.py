@@ -11,7 +11,7 @@ whenever it looks different), and those of `mcap_previews`. Needs the extra `rec
 import json
 import math
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import fields, replace
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -136,14 +136,13 @@ def write_scene(writer: Writer, r: Recording, scene: Scene | str) -> dict[str, s
     write = topic(writer, "/gaitwright/scene", "foxglove.SceneUpdate", SCHEMA)
     told, way = {}, way_points(r)
     if isinstance(scene, str):  # what moved is in the recording itself
-        told, scene = {"ground": f"left out: {scene}"}, Scene("", Flat())
+        told, scene = {"ground": f"left out: {scene}"}, rearranged(Scene("", Flat()), r)
     else:
         write(scene_update(scene, start), start)
         if len(way) > 1:
             write(way_update(scene, way, start), start)
-    moving = replace(scene, movers=r.movers)
     for (time,) in thinned(r, "time", rate=THINGS) if r.movers else ():
-        write(things_update(moving, float(time)), float(time))
+        write(things_update(scene, float(time)), float(time))
     return told
 
 

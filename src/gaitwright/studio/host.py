@@ -16,7 +16,6 @@ import msgspec
 
 from gaitwright import compiled_ahead
 from gaitwright.errors import GaitwrightError
-from gaitwright.numerics.compiled import is_warm
 from gaitwright.session import DT
 from gaitwright.skillbook.book import Skillbook
 from gaitwright.skillbook.writer import open_for_learning
@@ -37,8 +36,7 @@ BEHIND = 0.1
 def host(pipe: Ends, setup: Setup, book: Path, folder: Path, begins: bool) -> None:
     """Runs until the other end of the pipe is gone; says why where it cannot."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # for the server to act on: it closes the pipe
-    cold = not is_warm()
-    compiled_ahead.begin()
+    cold = compiled_ahead.begin()
     try:
         if cold:
             tell(pipe, EVERYBODY, {"say": "waits", "because": FIRST_RUN})

@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
+from itertools import chain, count
 
 from gaitwright.description.load import load_robot
 from gaitwright.errors import NoRoom, WrongUse, unknown
@@ -24,6 +25,7 @@ from gaitwright.perception.known_ground import map_of
 from gaitwright.plant.registry import make_plant
 from gaitwright.plant.seeing import SeeingPlant
 from gaitwright.record.arrangement import Arrangement
+from gaitwright.record.checked import MOST_BOXES
 from gaitwright.record.notes import Note
 from gaitwright.record.recording import Recorder
 from gaitwright.record.scene_of import scene_for
@@ -38,7 +40,6 @@ from gaitwright.studio.setup import DRIVERS, Setup
 
 FOR_EVER = 1e9
 """A run in the studio has no end of its own [s]."""
-MOST_BOXES, MOST_RUNS = 2500, 10_000
 ABORTED = "aborted: the robot is let down"
 
 
@@ -49,7 +50,7 @@ class LiveRun:
         """Sets it up; the robot stands and waits. Raises `WrongUse` or `BadFile` for what cannot be had."""
         check_known("driver", setup.driver, DRIVERS)
         self.setup, self.ledger = setup, ledger
-        self.ended: str | None = None
+        self.over: str | None = None
         """Why the run is over; `None` while it goes on."""
         self.robot: Robot = load_robot(setup.robot)
         self.scene: Scene = scene_for(self.robot, setup.scene, setup.seed)
@@ -116,7 +117,7 @@ class LiveRun:
         if lap is not None:
             self.lap = lap
             self.keep(lap)
-            if self.ended is None and lap.stopped_because is not None:
+            if self.over is None and lap.stopped_because is not None:
                 self.end(lap.stopped_because)
         return lap
 
@@ -128,7 +129,7 @@ class LiveRun:
 
     def end(self, because: str) -> None:
         """The run is over; a robot that is on its feet is let down."""
-        self.ended, self.lowering = because, self.session.lower()
+        self.over, self.lowering = because, self.session.lower()
         if self.recorder is not None:
             self.recorder.end_trip()
 
@@ -142,11 +143,6 @@ class LiveRun:
         """Something that a person did, for who looks at a recording (`record.notes`)."""
         if self.recorder is not None:
             self.recorder.note(Note(self.time, kind, sentence))
-
-    @property
-    def over(self) -> str | None:
-        """Why the run is over; `None` while it goes on."""
-        return self.ended
 
     # --- where to go --------------------------------------------------------------------------------
     def go(self, x: float, y: float, then: bool) -> None:
@@ -276,9 +272,9 @@ class LiveRun:
 
 def run_name(name: str, told: Iterable[str]) -> str:
     """A name for a run after which no lesson of the book is called, so that lessons of it get their own."""
-    names = (name, *(f"{name}, run {k}" for k in range(2, MOST_RUNS)))
-    known = tuple(told)
-    return next((one for one in names if not any(id.startswith(f"{one} at ") for id in known)), name)
+    known = {id.rpartition(" at ")[0] for id in told}
+    names = chain([name], (f"{name}, run {k}" for k in count(2)))
+    return next(one for one in names if one not in known)
 
 
 def check_known(what: str, asked: str, known: tuple[str, ...]) -> None:

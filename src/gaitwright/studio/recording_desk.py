@@ -91,10 +91,6 @@ class RecordingDesk:
     def listed(self, said: m.Recordings) -> dict[str, Any]:
         return {"recordings": self.shelf.listed()}
 
-    def settle(self) -> None:
-        """Returns when all is written."""
-        self.writer.submit(lambda: None).result()
-
     def close(self) -> None:
         """Keeps what was recorded; returns when all is written."""
         self.end()

@@ -84,14 +84,15 @@ def replay_data(
 ) -> dict[str, Any]:
     """All that a page shows of a recording, and of `others` on its ground, as plain JSON values."""
     check_together(recording, others)
+    sound = recording.sound()
     ground = scene_shown_of(recording) if scene is None else rearranged(scene, recording)
     robots = [one.robot for one in (recording, *others)]
     world = world_shown(ground, robots, dict(enumerate(ground.boxes)))
     return {
-        **story_of(recording.sound()),
+        **story_of(sound),
         "world": pressed(json.dumps(world, allow_nan=False).encode()),
         "columns": told_columns(recording.robot.n),
-        "movers": moves_of(recording.sound(), ground),
+        "movers": moves_of(sound, ground),
         "others": [story_of(other.sound()) for other in others],
     }
 

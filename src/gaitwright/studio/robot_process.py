@@ -8,12 +8,10 @@ import os
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import replace
 from pathlib import Path
 from queue import Full, Queue
 
 from gaitwright.errors import WrongUse
-from gaitwright.studio.messages import Reset
 from gaitwright.studio.setup import FROM, Ends, Gone, Setup, begin
 
 WRITES, SETTLES = 120.0, 3.0
@@ -52,12 +50,10 @@ class RobotProcess:
         self.asked = Queue[bytes | None](MOST_WAITING)
         threading.Thread(target=hand_on, args=(self.asked, self.ends), daemon=True).start()
 
-    def again(self, said: Reset) -> None:
+    def again(self, setup: Setup) -> None:
         """Another run in the place of one that has ended, or that does not answer."""
         self.end(SETTLES)
-        given = {name: getattr(said, name) for name in self.setup.__slots__}
-        asked = {name: of for name, of in given.items() if of is not None}
-        self.setup = replace(self.setup, **asked)
+        self.setup = setup
         self.begin()
 
     def ask(self, who: int, text: bytes) -> None:

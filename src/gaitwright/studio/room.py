@@ -8,7 +8,6 @@ to the run that is under way.
 import math
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -25,7 +24,7 @@ from gaitwright.studio.curve_desk import CurveDesk
 from gaitwright.studio.driving_desk import DrivingDesk
 from gaitwright.studio.frames import columns_of, frame_of, row_of
 from gaitwright.studio.live_run import LiveRun
-from gaitwright.studio.names_asked import check_names
+from gaitwright.studio.names_asked import setup_asked
 from gaitwright.studio.recording_desk import RecordingDesk
 from gaitwright.studio.setup import DRIVERS, Setup, who_drives
 from gaitwright.studio.shown import boxes_shown, scan_shown, seen_shown, things_shown, world_shown
@@ -129,10 +128,7 @@ class Room:
 
     def reset(self, said: m.Reset) -> Answer:
         """Another run; where there cannot be one, the one before goes on (`WrongUse`, `BadFile`)."""
-        asked = {name: getattr(said, name) for name in ("robot", "scene", "seed", "sight", "driver")}
-        given = {name: value for name, value in asked.items() if value is not None}
-        check_names(said, self.own)
-        run = LiveRun(replace(self.run.setup, **given), self.ledger)
+        run = LiveRun(setup_asked(said, self.run.setup, self.own), self.ledger)
         kept = self.recording.end()
         self.run.session.close()
         self.begin(run)

@@ -18,7 +18,7 @@ import uvicorn
 from gaitwright.errors import BadFile, GaitwrightError, WrongUse
 from gaitwright.studio.hub import Hub
 from gaitwright.studio.messages import MOST_BYTES, Reset
-from gaitwright.studio.names_asked import check_names
+from gaitwright.studio.names_asked import setup_asked
 from gaitwright.studio.recordings import Shelf
 from gaitwright.studio.robot_process import RobotProcess
 from gaitwright.studio.server import LOOPBACK, application
@@ -72,15 +72,14 @@ def until_told(serving: Coroutine[None, None, Hub]) -> Hub | None:
 async def served(robot: RobotProcess, what: Serving, place: socket.socket) -> Hub:
     """Serves on a socket, until it is told to end or the robot's process cannot begin."""
     loop = asyncio.get_running_loop()
-    own, began, runs = robot.setup, False, 0
+    own, runs = robot.setup, 0
 
     def told(run: int, who: int, said: bytes) -> None:
-        nonlocal began
         if run != runs:  # of one that was given up
             return
         hub.told(who, said)
-        began = robot.has_begun = began or "hello" in hub.last
-        server.should_exit = server.should_exit or (hub.closed and not began)
+        robot.has_begun = robot.has_begun or "hello" in hub.last
+        server.should_exit = server.should_exit or (hub.closed and not robot.has_begun)
 
     def attend() -> None:
         nonlocal runs
@@ -89,9 +88,8 @@ async def served(robot: RobotProcess, what: Serving, place: socket.socket) -> Hu
         threading.Thread(target=listen, args=listening, daemon=True).start()
 
     def restart(said: Reset) -> None:
-        check_names(said, own)
-        robot.setup = replace(own, **hub.setup)  # as it was, not as it could not be begun
-        robot.again(said)
+        last = replace(own, **hub.setup)  # as it was, not as it could not be begun
+        robot.again(setup_asked(said, last, own))
         attend()
 
     hub = Hub(robot.ask, restart)

@@ -72,8 +72,7 @@ class TeachingDesk:
     def right(self, said: m.Right) -> dict[str, Any]:
         """What it would do to be told what is right now. Raises `WrongUse` for what cannot be said."""
         pupil = self.live.pupil
-        slow = None if said.speed is None else said.speed / speed_scale(self.run.robot)
-        speed = None if slow is None else (slow, slow)
+        speed = None if said.speed is None else 2 * (said.speed / speed_scale(self.run.robot),)
         action = said_action(Words(said.skill, speed), self.run.robot, pupil.actions)
         if said.about and said.about not in pupil.vocabulary.names:
             raise unknown("number", said.about, pupil.vocabulary.names)

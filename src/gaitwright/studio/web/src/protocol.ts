@@ -95,13 +95,13 @@ export interface Boxes {
   boxes: Box[];
 }
 
-/** Something that happened, in a sentence. */
 /** Why there is no robot to be seen yet; "": there is. */
 export interface Waits {
   say: "waits";
   because: string;
 }
 
+/** Something that happened, in a sentence. */
 export interface Remark {
   say: "remark";
   sentence: string;

@@ -5,11 +5,12 @@ import { Icon } from "../ui/icons";
 
 export function Notice({ source }: { source: Source }) {
   const lost = source.lost.value;
-  const over = source.closed.value || source.silent.value || source.status.value?.over || "";
-  if (!lost && !over) return null;
+  const bad = lost || source.closed.value || source.silent.value;
+  const text = bad || source.status.value?.over;
+  if (!text) return null;
   return (
-    <div class={`notice ${lost || source.closed.value || source.silent.value ? "bad" : ""}`} role="alert" data-testid="notice">
-      <p>{lost || over}</p>
+    <div class={`notice ${bad ? "bad" : ""}`} role="alert" data-testid="notice">
+      <p>{text}</p>
       {!lost &&
         (drives(source) ? (
           <button class="primary icon-text" data-testid="begin-again" onClick={() => void source.send({ do: "reset" })}>
